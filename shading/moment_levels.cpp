@@ -29,15 +29,15 @@ void MomentLevels::write(const Texel& mean, std::uint16_t* out) const {
     out[3] = rounded(mean.second);
 }
 
-void MomentLevels::reduce(const std::uint16_t* texels, const TextureLevel& large, std::size_t to, const TextureLevel& small, int y,
-                          std::uint16_t* out) {
+void MomentLevels::reduce(const std::uint16_t* const (&from)[3], const TextureLevel& large, std::size_t to, const TextureLevel& small,
+                          int y, std::uint16_t* out) {
+    const Box rows = box_of(y, large.height);
     const auto texel_at = [&](std::int64_t i, std::int64_t j) -> Texel {
-        if (to > 1) return row(to - 1, static_cast<int>(j))[static_cast<std::size_t>(i)];
-        return level_0(texels + 4 * (j * large.width + i));
+        if (to > 1) return row(to - 1, static_cast<int>(rows.first + j))[static_cast<std::size_t>(i)];
+        return level_0(from[j] + 4 * i);
     };
     std::vector<Texel>& made = row(to, y);
     made.resize(static_cast<std::size_t>(small.width));
-    const Box rows = box_of(y, large.height);
     for (int x = 0; x < small.width; ++x, out += 4) {
         const Box columns = box_of(x, large.width);
         const double total = static_cast<double>(rows.total * columns.total);
@@ -45,7 +45,7 @@ void MomentLevels::reduce(const std::uint16_t* texels, const TextureLevel& large
         for (std::int64_t j = 0; j < rows.count; ++j)
             for (std::int64_t i = 0; i < columns.count; ++i) {
                 const double share = static_cast<double>(rows.weight[j] * columns.weight[i]) / total;
-                const Texel texel = texel_at(columns.first + i, rows.first + j);
+                const Texel texel = texel_at(columns.first + i, j);
                 for (int c = 0; c < 3; ++c) {
                     mean.first[c] += share * texel.first[c];
                     mean.color[c] += share * texel.color[c];

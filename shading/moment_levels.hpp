@@ -15,9 +15,8 @@ public:
     MomentLevels(MipRule rule, std::size_t levels) : rule_(rule), rows_(levels) {}
 
     /// Computes row y of level `to` from the rows of the level above it: all of `out` by MipRule::alpha, its alpha alone by
-    /// MipRule::normal. texels: of level 0, read if that is the level above; its rows must be there as far as the row needs them. Rows of a
-    /// level must come in order.
-    void reduce(const std::uint16_t* texels, const TextureLevel& large, std::size_t to, const TextureLevel& small, int y,
+    /// MipRule::normal. from: the rows that the row's box covers, read if they are level 0's. Rows of a level must come in order.
+    void reduce(const std::uint16_t* const (&from)[3], const TextureLevel& large, std::size_t to, const TextureLevel& small, int y,
                 std::uint16_t* out);
 
 private:

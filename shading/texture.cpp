@@ -68,10 +68,20 @@ float chain_error(const std::uint16_t* data, std::span<const TextureLevel> level
         const std::size_t row = std::size_t{4} * static_cast<std::size_t>(levels[l].width);
         for (int y = 0; y < levels[l].height; ++y) {
             float* to = small.data() + row * static_cast<std::size_t>(y);
-            if (l == 1)
-                reduce_row([=](std::size_t i) { return data + 4 * i; }, levels[0], to, levels[1], y);
-            else
-                reduce_row([&](std::size_t i) -> const float* { return &large[4 * i]; }, levels[l - 1], to, levels[l], y);
+            const std::size_t large_row = std::size_t{4} * static_cast<std::size_t>(levels[l - 1].width);
+            const auto rows_of = [&](const auto* texels, auto& rows) {
+                const Box box = box_of(y, levels[l - 1].height);
+                for (std::int64_t j = 0; j < box.count; ++j) rows[j] = texels + large_row * static_cast<std::size_t>(box.first + j);
+            };
+            if (l == 1) {
+                const std::uint16_t* rows[3] = {};
+                rows_of(data, rows);
+                reduce_row(rows, levels[0], to, levels[1], y);
+            } else {
+                const float* rows[3] = {};
+                rows_of(large.data(), rows);
+                reduce_row(rows, levels[l - 1], to, levels[l], y);
+            }
         }
         large.swap(small);
         const std::uint16_t* stored = data + std::size_t{4} * static_cast<std::size_t>(levels[l].offset);

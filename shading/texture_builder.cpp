@@ -64,20 +64,26 @@ TextureBuilder::TextureBuilder(TextureBuilder&&) noexcept = default;
 TextureBuilder& TextureBuilder::operator=(TextureBuilder&&) noexcept = default;
 TextureBuilder::~TextureBuilder() = default;
 
-Result<TextureBuilder> TextureBuilder::make(int width, int height, MipRule rule) {
+Result<TextureBuilder> TextureBuilder::make(int width, int height, MipRule rule, int skip_levels) {
     if (auto sides = check_sides(width, height); !sides) return tl::unexpected(sides.error());
     try {
         TextureBuilder builder;
+        builder.levels_ = level_layout(width, height);
+        const auto skipped = static_cast<std::size_t>(std::clamp(skip_levels, 0, static_cast<int>(builder.levels_.size()) - 1));
+        for (std::size_t level = 0; level < skipped; ++level)
+            builder.held_.emplace_back(std::size_t{4 * kHeldRows} * static_cast<std::size_t>(builder.levels_[level].width));
         Texture& texture = builder.texture_;
-        texture.levels_ = level_layout(width, height);
+        texture.levels_.assign(builder.levels_.begin() + static_cast<std::ptrdiff_t>(skipped), builder.levels_.end());
+        const std::int32_t first = texture.levels_.front().offset;
+        for (TextureLevel& level : texture.levels_) level.offset -= first;
         const TextureLevel& last = texture.levels_.back();
         const auto values = std::size_t{4} * static_cast<std::size_t>(last.offset + last.width * last.height);
         texture.texels_ = std::make_shared<Texture::Texels>();
         texture.texels_->memory = shading::make_large_block<std::uint16_t>(values);
         texture.data_ = {texture.texels_->memory.get(), values};
-        builder.rows_.assign(texture.levels_.size(), 0);
+        builder.rows_.assign(builder.levels_.size(), 0);
         texture.rule_ = rule;
-        if (rule != MipRule::equal) builder.moments_ = std::make_unique<MomentLevels>(rule, texture.levels_.size());
+        if (rule != MipRule::equal) builder.moments_ = std::make_unique<MomentLevels>(rule, builder.levels_.size());
         return builder;
     } catch (const std::bad_alloc&) {
         return fail_out_of_memory(
@@ -85,17 +91,23 @@ Result<TextureBuilder> TextureBuilder::make(int width, int height, MipRule rule)
     }
 }
 
+std::uint16_t* TextureBuilder::row(std::size_t level, int y) {
+    const auto width = static_cast<std::size_t>(levels_[level].width), at = static_cast<std::size_t>(y);
+    if (level < held_.size()) return held_[level].data() + 4 * width * (at % kHeldRows);
+    const TextureLevel& kept = texture_.levels_[level - held_.size()];
+    return texture_.texels_->memory.get() + 4 * (static_cast<std::size_t>(kept.offset) + at * width);
+}
+
 std::uint16_t* TextureBuilder::next_row() {
-    if (rows_.empty() || rows_[0] == texture_.height()) return nullptr;
-    return texture_.texels_->memory.get() +
-           std::size_t{4} * static_cast<std::size_t>(rows_[0]) * static_cast<std::size_t>(texture_.width());
+    if (rows_.empty() || rows_[0] == levels_[0].height) return nullptr;
+    return row(0, rows_[0]);
 }
 
 void TextureBuilder::add_row(const std::uint8_t* rgba8, ColorSpace space) {
     const FpEnvironment environment_of_host;
     std::uint16_t* const to = next_row();
     if (to == nullptr) return;
-    const auto values = std::size_t{4} * static_cast<std::size_t>(texture_.width());
+    const auto values = std::size_t{4} * static_cast<std::size_t>(levels_[0].width);
     // 257 = 65535 / 255 exactly.
     if (space == ColorSpace::linear)
         for (std::size_t i = 0; i < values; ++i) to[i] = static_cast<std::uint16_t>(rgba8[i] * 257);
@@ -111,35 +123,34 @@ void TextureBuilder::add_row(const std::uint16_t* rgba16) {
     const FpEnvironment environment_of_host;
     std::uint16_t* const to = next_row();
     if (to == nullptr) return;
-    std::copy_n(rgba16, std::size_t{4} * static_cast<std::size_t>(texture_.width()), to);
+    std::copy_n(rgba16, std::size_t{4} * static_cast<std::size_t>(levels_[0].width), to);
     reduce(0);
 }
 
 /// Counts a row of a level as done, and makes the rows of smaller levels that need no other.
 void TextureBuilder::reduce(std::size_t level) {
+    const TextureLevel& large = levels_[level];
     if (level == 0 && texture_.rule_ == MipRule::normal) {
-        std::uint16_t* const row = next_row();
-        for (int x = 0; x < texture_.width(); ++x) row[4 * x + 3] = 0;
+        std::uint16_t* const done = next_row();
+        for (int x = 0; x < large.width; ++x) done[4 * x + 3] = 0;
     }
     ++rows_[level];
     if (level + 1 == rows_.size()) return;
-    const TextureLevel &large = texture_.levels_[level], &small = texture_.levels_[level + 1];
-    const auto texels_of = [&](const TextureLevel& of, int y) {
-        return texture_.texels_->memory.get() +
-               std::size_t{4} * (static_cast<std::size_t>(of.offset) + static_cast<std::size_t>(y) * static_cast<std::size_t>(of.width));
-    };
+    const TextureLevel& small = levels_[level + 1];
     while (rows_[level + 1] < small.height) {
         const int y = rows_[level + 1];
-        const Box rows = box_of(y, large.height);
-        if (rows.first + rows.count > rows_[level]) return;
-        std::uint16_t* to = texels_of(small, y);
+        const Box box = box_of(y, large.height);
+        if (box.first + box.count > rows_[level]) return;
+        const std::uint16_t* from[3] = {};
+        for (std::int64_t j = 0; j < box.count; ++j) from[j] = row(level, static_cast<int>(box.first + j));
+        std::uint16_t* const to = row(level + 1, y);
         if (texture_.rule_ != MipRule::alpha) {
             if (large.width % 2 == 0 && large.height % 2 == 0)
-                halve_row(texels_of(large, 2 * y), texels_of(large, 2 * y + 1), to, small.width);
+                halve_row(from[0], from[1], to, small.width);
             else
-                reduce_row([from = texels_of(large, 0)](std::size_t i) { return from + 4 * i; }, large, to, small, y);
+                reduce_row(from, large, to, small, y);
         }
-        if (moments_ != nullptr) moments_->reduce(texels_of(large, 0), large, level + 1, small, y, to);
+        if (moments_ != nullptr) moments_->reduce(from, large, level + 1, small, y, to);
         reduce(level + 1);
     }
 }
@@ -147,7 +158,11 @@ void TextureBuilder::reduce(std::size_t level) {
 Texture TextureBuilder::finish() {
     const FpEnvironment environment_of_host;
     while (std::uint16_t* const to = next_row()) {
-        std::fill_n(to, std::size_t{4} * static_cast<std::size_t>(texture_.width()), std::uint16_t{0});
+        const auto values = std::size_t{4} * static_cast<std::size_t>(levels_[0].width);
+        if (rows_[0] > 0)
+            std::copy_n(row(0, rows_[0] - 1), values, to);
+        else
+            std::fill_n(to, values, std::uint16_t{0});
         reduce(0);
     }
     rows_.clear();

@@ -26,19 +26,23 @@ constexpr Box box_of(int i, int size) {
     return {first, 3, {n - at, n, at + 1}, 2 * n + 1};
 }
 
-/// Computes row y of a level from the one above it, whose texel i is at texel_at(i), rounded to integers or to float. The sums of integers
-/// (at most 2^16 * 2^28) are exact, so their order does not matter.
-template <class Value, class TexelAt>
-void reduce_row(const TexelAt& texel_at, const TextureLevel& large, Value* to, const TextureLevel& small, int y) {
+/// Rows of a level that a row of the next smaller one is made of: at most three.
+template <class Value>
+using BoxRows = const Value* const (&)[3];
+
+/// Computes row y of a level from the rows of the one above it that its box covers (the rest of `from` is not read), rounded to integers or
+/// to float. The sums of integers (at most 2^16 * 2^28) are exact, so their order does not matter.
+template <class Value, class From>
+void reduce_row(BoxRows<From> from, const TextureLevel& large, Value* to, const TextureLevel& small, int y) {
     using Sum = std::conditional_t<std::is_floating_point_v<Value>, double, std::uint64_t>;
     const Box rows = box_of(y, large.height);
     for (int x = 0; x < small.width; ++x) {
         const Box columns = box_of(x, large.width);
         Sum sum[4] = {0, 0, 0, 0};
         for (std::int64_t j = 0; j < rows.count; ++j) {
-            for (std::int64_t i = 0; i < columns.count; ++i) {
+            const From* texel = from[j] + 4 * columns.first;
+            for (std::int64_t i = 0; i < columns.count; ++i, texel += 4) {
                 const std::uint64_t weight = rows.weight[j] * columns.weight[i];
-                const auto* texel = texel_at(static_cast<std::size_t>((rows.first + j) * large.width + columns.first + i));
                 for (int c = 0; c < 4; ++c) sum[c] += static_cast<Sum>(weight) * texel[c];
             }
         }

@@ -107,7 +107,13 @@ Result<ImageHeader> read_jpeg_header(Bytes file, const ImageLimits& limits) {
     return header_of(ImageFormat::jpeg, jpeg_sides(file), limits);
 }
 
-Result<DecodedImage> decode_jpeg(Bytes file, const ImageLimits& /*limits*/) { return given(file); }
+Result<void> decode_jpeg_rows(Bytes file, const ImageLimits& /*limits*/, RowSink& sink) {
+    const auto image = given(file);
+    if (!image) return tl::unexpected(image.error());
+    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image->width);
+    for (std::size_t at = 0; at < image->rgba8.size(); at += row) sink.add_row(&image->rgba8[at]);
+    return {};
+}
 
 Result<ImageHeader> read_webp_header(Bytes file, const ImageLimits& limits) {
     return header_of(ImageFormat::webp, webp_sides(file), limits);

@@ -274,7 +274,7 @@ TEST_CASE("materials: extras.halflit sets the lobe, and mistakes in it are error
 
 TEST_CASE("materials: a broken picture is left out with a warning, or refused by the strict rules", "[io]") {
     Bytes broken = plain_png(8, 8, 1, 2, 3);
-    broken.resize(broken.size() / 2);
+    broken.resize(40);  // its header, and nothing of its pixels
     for (const Bytes& picture : {broken, to_bytes("not a picture"), Bytes{}}) {
         const Bytes file = with_material(R"("emissiveTexture":{"index":0},"emissiveFactor":[1,1,1],"normalTexture":{"index":0},
             "pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}})",
@@ -306,5 +306,32 @@ TEST_CASE("materials: textures have limits, each and together", "[io]") {
     CHECK(load(file, options).error().code == ErrorCode::limit);
     options = {};
     options.limits.max_texture_bytes = 2 * 64 * 64 * 32 / 3 - 10;
+    options.strict = true;
     CHECK(load(file, options).error().code == ErrorCode::limit);
+    options.strict = false;
+    options.limits.max_texture_bytes = 20;  // less than two textures of one texel
+    CHECK(load(file, options).error().code == ErrorCode::limit);
+}
+
+TEST_CASE("materials: textures that would exceed their memory are kept smaller, the largest first, as their levels are", "[io]") {
+    const Bytes picture = make_png({100, 60, 8, 6, false, {}, {}}, [](std::uint32_t x, std::uint32_t y, int c) {
+        return (7 * x + 13 * y * x + 50u * static_cast<unsigned>(c)) % 251;
+    });
+    for (const char* use : {R"("emissiveTexture":{"index":0},"normalTexture":{"index":1})",
+                            R"("alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"normalTexture":{"index":1})"}) {
+        const Bytes file = with_material(use, {picture, plain_png(16, 16, 9, 8, 7)}, R"({"source":0},{"source":1})");
+        LoadOptions options;
+        const LoadedScene whole = load_ok(file, options);
+        options.limits.max_texture_bytes = 10'000;  // 100 x 60: 64,000 bytes; 25 x 15: 4,000; 16 x 16: 2,730
+        const LoadedScene fitted = load_ok(file, options);
+        REQUIRE(fitted.warnings.size() == whole.warnings.size() + 1);
+        CHECK(fitted.warnings.back().find("1 of 2 are kept at 1/4") != std::string::npos);
+        REQUIRE(fitted.scene.textures.size() == 2);
+        const std::size_t at = whole.scene.textures[0].width() == 100 ? 0 : 1;
+        const Texture &large = whole.scene.textures[at], &small = fitted.scene.textures[at];
+        CHECK(small.width() == 25);
+        CHECK(small.height() == 15);
+        CHECK(std::equal(small.data().begin(), small.data().end(), large.data().end() - static_cast<std::ptrdiff_t>(small.data().size())));
+        CHECK(fitted.scene.textures[1 - at].width() == 16);
+    }
 }

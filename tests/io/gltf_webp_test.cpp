@@ -120,6 +120,7 @@ TEST_CASE("webp: limits hold by the header, before pixels are decoded", "[io]") 
     CHECK(io::read_image_header(file, {.max_side = kWidth - 1}).error().code == ErrorCode::limit);
     CHECK(io::decode_image(file, {.max_pixels = kWidth * kHeight - 1}).error().code == ErrorCode::limit);
     LoadOptions options;
+    options.strict = true;
     options.limits.max_texture_bytes = kWidth * kHeight * 10;
     CHECK(load(textured(file, "image/webp", kWebpSource, kRequired), options).error().code == ErrorCode::limit);
 }

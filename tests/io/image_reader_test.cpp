@@ -291,6 +291,36 @@ TEST_CASE("jpeg: cut files, too many scans and wrong sizes are refused", "[io]")
     CHECK(read_image_header(huge)->width == 0x1F1F);
 }
 
+TEST_CASE("pictures: of one that is cut off, the rows before are added where damage is kept", "[io]") {
+    constexpr std::uint32_t kSide = 64;
+    std::vector<std::uint8_t> grey(kSide * kSide);
+    for (std::uint32_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<std::uint8_t>(i * 7 + i / kSide * 13);
+    const auto noise = [](std::uint32_t x, std::uint32_t y, int c) {
+        return ((x * 71 + y * 131 + static_cast<std::uint32_t>(c) * 37) * 2654435761u) >> 24;
+    };
+    const Bytes png = make_png({kSide, kSide, 8, 2, false, {}, {}}, noise), baseline = make_jpeg({64, 64, 1, JCS_GRAYSCALE, 95, 0}, grey),
+                progressive = make_jpeg({64, 64, 1, JCS_GRAYSCALE, 95, 20}, grey);
+    for (const Bytes& file : {png, baseline, progressive}) {
+        const DecodedImage whole = decode_ok(file);
+        Bytes cut = file;
+        cut.resize(file.size() * 2 / 3);
+        const bool all_rows = file[0] == std::byte{0xFF};  // JPEG's are all there, grey where nothing is known
+        Rows rows;
+        rows.row = 4 * kSide;
+        const auto kept = decode_rows(cut, {.keep_damaged = true}, false, rows);
+        REQUIRE_FALSE(kept);
+        CHECK(kept.error().code == ErrorCode::bad_input);
+        const std::size_t found = rows.rgba8.size() / rows.row;
+        INFO(found << " rows");
+        if (all_rows)
+            CHECK(found == kSide);
+        else
+            CHECK((found > kSide / 2 && found < kSide));
+        if (file != progressive)
+            CHECK(std::equal(rows.rgba8.begin(), rows.rgba8.begin() + static_cast<std::ptrdiff_t>(rows.row * 16), whole.rgba8.begin()));
+    }
+}
+
 TEST_CASE("image reader: other formats are refused by name", "[io]") {
     CHECK(decode_image(to_bytes("RIFF....WEBPVP8 ")).error().message.find("WebP") != std::string::npos);
     CHECK(decode_image(to_bytes("\xABKTX 20\xBB")).error().message.find("found KTX2") != std::string::npos);

@@ -157,7 +157,7 @@ TEST_CASE("texture: levels of a normal map have what the mean of its normals los
     CHECK(texel_value(made, 2, 0, 0, 3) == 0);  // where the map is flat
 }
 
-TEST_CASE("texture: rows beyond the last are ignored, missing ones are 0", "[shading][texture]") {
+TEST_CASE("texture: rows beyond the last are ignored, missing ones are as the last one", "[shading][texture]") {
     const auto row = constant_picture(4, 1, 255);
     const std::vector<std::uint16_t> row16(16, 65535);
     TextureBuilder builder = TextureBuilder::make(4, 3).value();
@@ -173,9 +173,34 @@ TEST_CASE("texture: rows beyond the last are ignored, missing ones are 0", "[sha
     TextureBuilder started = TextureBuilder::make(4, 4).value();
     started.add_row(row16.data());
     const Texture part = started.finish();
-    for (int y = 0; y < 4; ++y) CHECK(texel_value(part, 0, 3, y, 2) == (y == 0 ? 65535 : 0));
-    CHECK(texel_value(part, 1, 0, 0, 0) == 32768);
-    CHECK(texel_value(part, 2, 0, 0, 0) == 16384);
+    for (int level = 0; level < 3; ++level) CHECK(texel_value(part, static_cast<std::size_t>(level), 0, 0, 2) == 65535);
+    CHECK(texel_value(part, 0, 3, 3, 2) == 65535);
+    CHECK(texel_value(TextureBuilder::make(4, 4)->finish(), 0, 3, 3, 2) == 0);
+}
+
+TEST_CASE("texture: levels that are skipped leave the others as they are, by every rule", "[shading][texture]") {
+    for (const MipRule rule : {MipRule::equal, MipRule::alpha, MipRule::normal})
+        for (const auto& [width, height] : {std::pair{64, 64}, {37, 21}, {1, 50}, {3, 2}}) {
+            std::vector<std::uint16_t> row(static_cast<std::size_t>(4 * width));
+            TextureBuilder whole_builder = TextureBuilder::make(width, height, rule).value();
+            std::vector<TextureBuilder> builders;
+            for (int skip = 0; skip < 9; ++skip) builders.push_back(TextureBuilder::make(width, height, rule, skip).value());
+            for (int y = 0; y < height; ++y) {
+                for (std::size_t i = 0; i < row.size(); ++i)
+                    row[i] = static_cast<std::uint16_t>((i * 7919u + static_cast<unsigned>(y) * 104729u) % 65536u);
+                whole_builder.add_row(row.data());
+                for (TextureBuilder& builder : builders) builder.add_row(row.data());
+            }
+            const Texture whole = whole_builder.finish();
+            for (std::size_t skip = 0; skip < builders.size(); ++skip) {
+                const Texture part = builders[skip].finish();
+                const std::size_t first = std::min(skip, whole.levels().size() - 1);
+                REQUIRE(part.levels().size() == whole.levels().size() - first);
+                CHECK(part.width() == whole.levels()[first].width);
+                CHECK(std::equal(part.data().begin(), part.data().end(),
+                                 whole.data().end() - static_cast<std::ptrdiff_t>(part.data().size())));
+            }
+        }
 }
 
 TEST_CASE("texture: a level is half the one above, rounded down, to 1 x 1", "[shading][texture]") {

@@ -54,7 +54,7 @@ Result<std::vector<std::byte>> read_regular(int fd, std::size_t max_bytes, Error
     if (!S_ISREG(info.st_mode))
         return fail(cannot_read, S_ISDIR(info.st_mode) ? "is a directory, expected a file" : "is not a regular file");
     const std::uint64_t size = static_cast<std::uint64_t>(info.st_size);
-    if (size > max_bytes) return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", size, max_bytes));
+    if (size > max_bytes) return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {} (max_file_bytes)", size, max_bytes));
     std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     std::size_t have = 0;
     while (have < bytes.size()) {

@@ -31,7 +31,7 @@ ModelBuilder::ModelBuilder(std::span<const std::byte> bytes, const std::string& 
     refuse_choices(options);
     const LoadLimits& limits = options.limits;
     if (bytes.size() > limits.max_file_bytes)
-        refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), limits.max_file_bytes), ErrorCode::limit);
+        refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), limits.max_file_bytes), ErrorCode::limit);
     if (!(options.crease_deg >= 0.0f && options.crease_deg <= 180.0f))
         refuse("", fmt::format("crease_deg is {}, expected 0 to 180", options.crease_deg), ErrorCode::usage);
     take(document_->folder.check(), "");

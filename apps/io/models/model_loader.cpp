@@ -33,7 +33,8 @@ namespace {
 
 LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     if (bytes.size() > options.limits.max_file_bytes)
-        refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
+        refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
+               ErrorCode::limit);
     const FormatRow* const row = find_format(bytes);
     // The glTF reader says what is wrong with a file that is nothing at all.
     if (const ForeignFormat* const foreign = find_foreign_format(bytes))

@@ -54,7 +54,7 @@ ThreeMfPackage::~ThreeMfPackage() = default;
 
 void ThreeMfPackage::check_size(std::uint64_t bytes, const std::string& where) const {
     const std::uint64_t most = document_.options.limits.max_file_bytes;
-    if (bytes > most) refuse(where, fmt::format("has more than {} bytes, which is the limit", most), ErrorCode::limit);
+    if (bytes > most) refuse(where, fmt::format("has more than {} bytes, which is max_file_bytes", most), ErrorCode::limit);
 }
 
 std::optional<std::vector<std::byte>> ThreeMfPackage::read(const std::string& name) {

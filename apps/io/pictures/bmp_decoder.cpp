@@ -60,6 +60,13 @@ Result<BmpHeader> read_header(std::span<const std::byte> file) {
 
 }  // namespace
 
+Result<ImageHeader> read_bmp_header(std::span<const std::byte> file, const ImageLimits& limits) {
+    const auto header = read_header(file);
+    if (!header) return tl::unexpected(header.error());
+    if (const auto checked = check_image_size(header->width, header->height, limits); !checked) return tl::unexpected(checked.error());
+    return ImageHeader{ImageFormat::bmp, static_cast<int>(header->width), static_cast<int>(header->height), 8};
+}
+
 Result<DecodedImage> decode_bmp(std::span<const std::byte> file, const ImageLimits& limits) {
     const auto header = read_header(file);
     if (!header) return tl::unexpected(header.error());

@@ -17,15 +17,16 @@ bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> 
                                                       [](std::uint8_t a, std::byte b) { return a == static_cast<std::uint8_t>(b); });
 }
 
-constexpr const char* kExpected = "PNG, JPEG or WebP";
+constexpr const char* kExpected = "PNG, JPEG, WebP or BMP";
 
 Result<ImageFormat> format_of(std::span<const std::byte> file) {
     static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}, kJpeg[] = {0xFF, 0xD8, 0xFF};
     static constexpr std::uint8_t kRiff[] = {'R', 'I', 'F', 'F'}, kWebp[] = {'W', 'E', 'B', 'P'},
-                                  kKtx2[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0'}, kGif[] = {'G', 'I', 'F', '8'};
+                                  kKtx2[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0'}, kGif[] = {'G', 'I', 'F', '8'}, kBmp[] = {'B', 'M'};
     if (starts_with(file, kPng)) return ImageFormat::png;
     if (starts_with(file, kJpeg)) return ImageFormat::jpeg;
     if (starts_with(file, kRiff) && file.size() >= 12 && starts_with(file.subspan(8), kWebp)) return ImageFormat::webp;
+    if (starts_with(file, kBmp)) return ImageFormat::bmp;
     const char* other = starts_with(file, kKtx2) ? "KTX2" : starts_with(file, kGif) ? "GIF" : nullptr;
     if (other != nullptr) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found {}", kExpected, other));
     if (file.empty()) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found nothing", kExpected));
@@ -42,9 +43,11 @@ Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const I
     if (width == 0 || height == 0) return fail(ErrorCode::bad_input, fmt::format("the picture is {}x{} pixels", width, height));
     const std::uint64_t side = static_cast<std::uint64_t>(limits.max_side);
     if (width > side || height > side)
-        return fail(ErrorCode::limit, fmt::format("the picture is {}x{} pixels, the limit is {} a side", width, height, limits.max_side));
+        return fail(ErrorCode::limit,
+                    fmt::format("the picture is {}x{} pixels, the limit is {} a side (max_texture_side)", width, height, limits.max_side));
     if (width * height > limits.max_pixels)
-        return fail(ErrorCode::limit, fmt::format("the picture has {} pixels, the limit is {}", width * height, limits.max_pixels));
+        return fail(ErrorCode::limit,
+                    fmt::format("the picture has {} pixels, the limit is {} (max_texture_pixels)", width * height, limits.max_pixels));
     return {};
 }
 
@@ -60,6 +63,7 @@ Result<ImageHeader> read_image_header(std::span<const std::byte> file, const Ima
     const auto format = format_of(file);
     if (!format) return tl::unexpected(format.error());
     if (*format == ImageFormat::webp) return detail::read_webp_header(file, limits);
+    if (*format == ImageFormat::bmp) return detail::read_bmp_header(file, limits);
     return *format == ImageFormat::png ? detail::read_png_header(file, limits) : detail::read_jpeg_header(file, limits);
 }
 
@@ -67,7 +71,13 @@ Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLi
     const auto format = format_of(file);
     if (!format) return tl::unexpected(format.error());
     if (*format == ImageFormat::webp) return detail::decode_webp(file, limits);
-    return *format == ImageFormat::png ? detail::decode_png(file, limits, keep_16_bits) : detail::decode_jpeg(file, limits);
+    if (*format == ImageFormat::bmp) return detail::decode_bmp(file, limits);
+    if (*format == ImageFormat::png) return detail::decode_png(file, limits, keep_16_bits);
+    const auto header = detail::read_jpeg_header(file, limits);
+    if (!header) return tl::unexpected(header.error());
+    detail::WholePicture whole(header->width, header->height);
+    if (auto done = detail::decode_jpeg_rows(file, limits, whole); !done) return tl::unexpected(done.error());
+    return std::move(whole.image);
 }
 
 Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink) {
@@ -78,6 +88,7 @@ Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& lim
         if (!added) return tl::unexpected(added.error());
         if (*added) return {};
     }
+    if (*format == ImageFormat::jpeg) return detail::decode_jpeg_rows(file, limits, sink);
     const auto image = decode_image(file, limits, keep_16_bits);
     if (!image) return tl::unexpected(image.error());
     const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image->width);

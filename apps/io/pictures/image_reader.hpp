@@ -1,4 +1,4 @@
-// Decoding of PNG, JPEG and WebP pictures in memory. Limits are checked on the header, before pixels are decoded.
+// Decoding of PNG, JPEG, WebP and BMP pictures in memory. Limits are checked on the header, before pixels are decoded.
 #pragma once
 
 #include "halflit/error.hpp"
@@ -14,10 +14,11 @@ namespace halflit::io {
 struct ImageLimits {
     int max_side = 16384;  ///< pixels
     std::size_t max_pixels = std::size_t{64} << 20;
-    int max_jpeg_scans = 64;  ///< each scan of a progressive JPEG costs a pass over the picture
+    int max_jpeg_scans = 64;    ///< each scan of a progressive JPEG costs a pass over the picture
+    bool keep_damaged = false;  ///< decode_rows adds the rows of a damaged picture that can be read, before it returns the error
 };
 
-enum class ImageFormat : std::uint8_t { png, jpeg, webp };
+enum class ImageFormat : std::uint8_t { png, jpeg, webp, bmp };
 
 struct ImageHeader {
     ImageFormat format = ImageFormat::png;
@@ -50,7 +51,8 @@ public:
     virtual void add_indexed_row(std::span<const std::uint8_t> indices, const Palette& palette);
 };
 
-/// decode_image without memory for the picture where the format allows. After an error, rows may have been added.
+/// decode_image without memory for the picture where the format allows: PNG that is not interlaced, and JPEG. After an error, rows may have
+/// been added.
 Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink);
 
 }  // namespace halflit::io

@@ -25,7 +25,7 @@ struct Decoder {
     std::jmp_buf escape{};
     char message[JMSG_LENGTH_MAX] = "";
     int max_scans = 0;
-    bool too_many_scans = false, out_of_memory = false, out_of_time = false;
+    bool keep_damaged = false, too_many_scans = false, out_of_memory = false, out_of_time = false;
 
     Decoder() {
         info.err = jpeg_std_error(&errors);
@@ -39,8 +39,8 @@ struct Decoder {
             auto* self = static_cast<Decoder*>(common->client_data);
             // Extra bytes between segments are common and harmless; every other warning means wrong pixels.
             if (level >= 0 || common->err->msg_code == JWRN_EXTRANEOUS_DATA || common->err->msg_code == JWRN_ADOBE_XFORM) return;
-            common->err->format_message(common, self->message);
-            std::longjmp(self->escape, 1);  // libjpeg would fill the rest with grey
+            if (self->message[0] == '\0') common->err->format_message(common, self->message);
+            if (!self->keep_damaged) std::longjmp(self->escape, 1);  // libjpeg would fill the rest with grey
         };
         errors.output_message = [](j_common_ptr) {};
         info.client_data = this;
@@ -58,8 +58,8 @@ struct Decoder {
         return true;
     }
 
-    /// Called after read_header. `rgba` holds width * height * 4 bytes, `row` width * 4.
-    bool read_pixels(std::uint8_t* rgba, std::uint8_t* row, int scan_limit) {
+    /// Called after read_header. `row` and `inks` hold width * 4 bytes. False: an error, or a damage.
+    bool read_pixels(std::uint8_t* row, std::uint8_t* inks, int scan_limit, RowSink& sink) {
         if (setjmp(escape) != 0) return false;
         max_scans = scan_limit;
         progress.progress_monitor = [](j_common_ptr common) {
@@ -77,26 +77,26 @@ struct Decoder {
         jpeg_start_decompress(&info);
         const std::size_t width = info.output_width;
         while (info.output_scanline < info.output_height) {
-            std::uint8_t* line = rgba + std::size_t{info.output_scanline} * width * 4;
-            JSAMPROW target = four_inks ? row : line;
+            JSAMPROW target = four_inks ? inks : row;
             jpeg_read_scanlines(&info, &target, 1);
             for (std::size_t x = 0; four_inks && x < width; ++x) {
                 const bool inverted = info.saw_Adobe_marker;  // Adobe stores 255 - ink
-                const unsigned black = inverted ? row[4 * x + 3] : 255u - row[4 * x + 3];
+                const unsigned black = inverted ? inks[4 * x + 3] : 255u - inks[4 * x + 3];
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const unsigned light = inverted ? row[4 * x + c] : 255u - row[4 * x + c];
-                    line[4 * x + c] = static_cast<std::uint8_t>((light * black + 127u) / 255u);
+                    const unsigned light = inverted ? inks[4 * x + c] : 255u - inks[4 * x + c];
+                    row[4 * x + c] = static_cast<std::uint8_t>((light * black + 127u) / 255u);
                 }
-                line[4 * x + 3] = 255;
+                row[4 * x + 3] = 255;
             }
+            sink.add_row(row);
         }
         jpeg_finish_decompress(&info);
-        return true;
+        return message[0] == '\0';
     }
 
     [[nodiscard]] tl::unexpected<Error> error() const {
         if (out_of_time) throw OutOfTime{};
-        if (too_many_scans) return fail(ErrorCode::limit, fmt::format("JPEG: more than {} scans, which is the limit", max_scans));
+        if (too_many_scans) return fail(ErrorCode::limit, fmt::format("JPEG: more than {} scans, which is max_jpeg_scans", max_scans));
         return fail(out_of_memory ? ErrorCode::limit : ErrorCode::bad_input, fmt::format("JPEG: {}", message));
     }
 };
@@ -111,7 +111,7 @@ Result<ImageHeader> read_jpeg_header(std::span<const std::byte> file, const Imag
     return ImageHeader{ImageFormat::jpeg, static_cast<int>(decoder.info.image_width), static_cast<int>(decoder.info.image_height), 8};
 }
 
-Result<DecodedImage> decode_jpeg(std::span<const std::byte> file, const ImageLimits& limits) {
+Result<void> decode_jpeg_rows(std::span<const std::byte> file, const ImageLimits& limits, RowSink& sink) {
     Decoder decoder;
     if (!decoder.read_header(file)) return decoder.error();
     const auto size = check_image_size(decoder.info.image_width, decoder.info.image_height, limits);
@@ -120,11 +120,11 @@ Result<DecodedImage> decode_jpeg(std::span<const std::byte> file, const ImageLim
     // Huffman coding spends at least one bit on each block of 64 pixels; less than that is refused before memory is taken.
     if (!decoder.info.arith_code && pixels / 512 > file.size())
         return fail(ErrorCode::bad_input, fmt::format("JPEG: {} bytes cannot hold {} pixels", file.size(), pixels));
-    DecodedImage image{static_cast<int>(decoder.info.image_width), static_cast<int>(decoder.info.image_height), {}, {}};
-    image.rgba8.resize(pixels * 4);
-    std::vector<std::uint8_t> row(std::size_t{decoder.info.image_width} * 4);
-    if (!decoder.read_pixels(image.rgba8.data(), row.data(), limits.max_jpeg_scans)) return decoder.error();
-    return image;
+    const std::size_t values = std::size_t{4} * decoder.info.image_width;
+    std::vector<std::uint8_t> row(values), inks(decoder.info.num_components == 4 ? values : 0);
+    decoder.keep_damaged = limits.keep_damaged;
+    if (!decoder.read_pixels(row.data(), inks.data(), limits.max_jpeg_scans, sink)) return decoder.error();
+    return {};
 }
 
 }  // namespace halflit::io::detail

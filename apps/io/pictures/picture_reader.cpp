@@ -52,9 +52,7 @@ Result<Image> decode_picture(std::span<const std::byte> file, std::string_view n
     if (is_float_image(file)) return decode_light(file, limits);
     const auto format = output_format_of(name);
     const bool tga = format && *format == OutputFormat::tga;
-    auto decoded = starts_with(file, "BM") ? detail::decode_bmp(file, limits)
-                   : tga                   ? detail::decode_tga(file, limits)
-                                           : decode_image(file, limits);
+    auto decoded = tga && !starts_with(file, "BM") ? detail::decode_tga(file, limits) : decode_image(file, limits);
     if (!decoded) return tl::unexpected(decoded.error());
     return Image{decoded->width, decoded->height, std::move(decoded->rgba8), {}};
 }

@@ -2,11 +2,13 @@
 #include "apps/io/pictures/image_decoders.hpp"
 #include "apps/io/pictures/png_plain.hpp"
 
+#include <libdeflate.h>
 #include <spng.h>
 
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -155,13 +157,32 @@ Result<DecodedImage> decode_at_once(const Opened& png, bool keep_16_bits) {
     return image;
 }
 
-struct WholePicture : RowSink {
-    DecodedImage image;
-
-    void add_row(const std::uint8_t* rgba8) override { image.rgba8.insert(image.rgba8.end(), rgba8, rgba8 + row()); }
-    void add_row(const std::uint16_t* rgba16) override { image.rgba16.insert(image.rgba16.end(), rgba16, rgba16 + row()); }
-    [[nodiscard]] std::size_t row() const { return std::size_t{4} * static_cast<std::size_t>(image.width); }
-};
+/// A file that is cut off within its pixels, with an end; nothing for others. Decoders read no chunk that is not whole.
+std::vector<std::byte> with_end(std::span<const std::byte> file) {
+    constexpr std::size_t kSignature = 8, kChunk = 12;  // bytes; of a chunk's length, type and checksum
+    for (std::size_t at = kSignature; at + kChunk < file.size();) {
+        const auto number = [&](std::size_t i) { return std::to_integer<std::uint32_t>(file[i]); };
+        const std::size_t size = number(at) << 24 | number(at + 1) << 16 | number(at + 2) << 8 | number(at + 3),
+                          left = file.size() - at - 8;
+        if (size + 4 <= left) {
+            at += size + kChunk;
+            continue;
+        }
+        if (std::memcmp(&file[at + 4], "IDAT", 4) != 0) return {};
+        std::vector<std::byte> whole(file.begin(), file.end());
+        const auto put = [](std::byte* to, std::size_t value) {
+            for (int i = 0; i < 4; ++i) to[i] = static_cast<std::byte>(value >> (24 - 8 * i));
+        };
+        put(&whole[at], left);
+        std::byte sum[4];
+        put(sum, libdeflate_crc32(0, &whole[at + 4], left + 4));
+        whole.insert(whole.end(), sum, sum + 4);
+        static constexpr std::uint8_t kEnd[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
+        for (const std::uint8_t byte : kEnd) whole.push_back(static_cast<std::byte>(byte));
+        return whole;
+    }
+    return {};
+}
 
 }  // namespace
 
@@ -173,6 +194,8 @@ Result<ImageHeader> read_png_header(std::span<const std::byte> file, const Image
 }
 
 Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink) {
+    const std::vector<std::byte> whole = limits.keep_damaged ? with_end(file) : std::vector<std::byte>();
+    if (!whole.empty()) file = whole;
     const auto png = open_for_pixels(file, limits);
     if (!png) return tl::unexpected(png.error());
     if (png->header.interlace_method != SPNG_INTERLACE_NONE) return false;
@@ -184,8 +207,7 @@ Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimi
     if (!png) return tl::unexpected(png.error());
     const spng_ihdr& header = png->header;
     if (header.interlace_method != SPNG_INTERLACE_NONE) return decode_at_once(*png, keep_16_bits);
-    WholePicture picture;
-    picture.image.width = static_cast<int>(header.width), picture.image.height = static_cast<int>(header.height);
+    WholePicture picture(static_cast<int>(header.width), static_cast<int>(header.height));
     const std::size_t values = picture.row() * header.height;
     if (header.bit_depth == 16 && keep_16_bits)
         picture.image.rgba16.reserve(values);

@@ -96,8 +96,10 @@ private:
 /// Makes a texture from its rows, top to bottom, without a copy of the picture: for decoders. Smaller levels are made as rows come.
 class TextureBuilder {
 public:
-    /// Sides from 1 to kMaxTextureSide texels; others, and too little memory, are errors (limit).
-    [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height, MipRule rule = MipRule::equal);
+    /// Sides from 1 to kMaxTextureSide texels; others, and too little memory, are errors (limit). skip_levels: so many of the largest
+    /// levels are left out, at most all but the smallest: the texture is that of the smaller picture, with the same texels, and the larger
+    /// one is never held in memory. Rows are those of the full size.
+    [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height, MipRule rule = MipRule::equal, int skip_levels = 0);
     /// @{
     /// What is moved from may only be destroyed, or assigned to.
     HALFLIT_API TextureBuilder(TextureBuilder&&) noexcept;
@@ -109,17 +111,23 @@ public:
     HALFLIT_API void add_row(const std::uint8_t* rgba8, ColorSpace space);
     /// The same from four 16-bit channels a texel, taken as they are (linear).
     HALFLIT_API void add_row(const std::uint16_t* rgba16);
-    /// The texture. Rows that were not added are 0 in all channels. A second call gives a texture without texels.
+    /// The texture. Rows that were not added are as the last one that was, or 0 in all channels. A second call gives a texture without
+    /// texels.
     [[nodiscard]] HALFLIT_API Texture finish();
 
 private:
+    static constexpr int kHeldRows = 4;  ///< of a level that is left out; a row of the next one reads up to three
+
     TextureBuilder();
+    std::uint16_t* row(std::size_t level, int y);
     std::uint16_t* next_row();  ///< null: there is none
     void reduce(std::size_t level);
 
     Texture texture_;
-    std::vector<int> rows_;                  ///< of each level that are done
-    std::unique_ptr<MomentLevels> moments_;  ///< for rules other than equal
+    std::vector<TextureLevel> levels_;              ///< those left out, and the texture's
+    std::vector<std::vector<std::uint16_t>> held_;  ///< the last rows of those left out
+    std::vector<int> rows_;                         ///< of each level that are done
+    std::unique_ptr<MomentLevels> moments_;         ///< for rules other than equal
 };
 
 /// A material's use of a texture: the texture, its sampler and the coordinates.

@@ -87,7 +87,7 @@ typedef struct halflit_load_options {
     const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
     size_t allow_external_count;        ///< number of these folders
     double time_limit_s;                ///< wall clock, checked between the parts of the file; 0: no limit (0)
-    uint64_t max_file_bytes;            ///< each file: the model, a buffer, a picture (512 MiB)
+    uint64_t max_file_bytes;            ///< each file: the model, a buffer, a picture (2 GiB)
     uint64_t max_total_bytes;           ///< all buffers together (2 GiB)
     uint64_t max_json_tokens;           ///< names and values (50,000,000)
     uint64_t max_texture_bytes;         ///< all textures together, 10.7 bytes a pixel (1 GiB)

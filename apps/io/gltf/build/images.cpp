@@ -17,9 +17,12 @@ namespace halflit::io::detail {
 namespace {
 
 /// Memory of a texture: RGBA at 16 bits, and a third more for the smaller mip levels.
-std::uint64_t texture_bytes(const ImageHeader& header) {
-    return static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) * 32 / 3;
+std::uint64_t texture_bytes(int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 32 / 3;
 }
+
+/// Largest time that decoding takes, for a limit of memory: pixels for each byte of it. 1 GiB allows 16 pictures of 8192 x 8192.
+constexpr std::uint64_t kMostPixelsAByte = 1;
 
 /// Takes a picture that is lost out of a material. A factor that scales what the picture has only here and there is off without it.
 void leave_out(Material& material, TextureSlot slot) {
@@ -33,6 +36,7 @@ void leave_out(Material& material, TextureSlot slot) {
 struct TextureRows : RowSink {
     TextureBuilder builder;
     ColorSpace space;
+    int added = 0;
     Texture palette;                 ///< 256 x 1 texels, once it is known
     std::vector<std::uint16_t> row;  ///< of colours of the palette
 
@@ -40,10 +44,12 @@ struct TextureRows : RowSink {
     void add_row(const std::uint8_t* rgba8) override {
         check_time();
         builder.add_row(rgba8, space);
+        ++added;
     }
     void add_row(const std::uint16_t* rgba16) override {
         check_time();
         builder.add_row(rgba16);
+        ++added;
     }
     void add_indexed_row(std::span<const std::uint8_t> indices, const Palette& colors) override {
         if (palette.width() == 0) {
@@ -62,6 +68,8 @@ std::string_view mime_type_of(ImageFormat format) {
             return "image/png";
         case ImageFormat::jpeg:
             return "image/jpeg";
+        case ImageFormat::bmp:
+            return "image/bmp";
         case ImageFormat::webp:
             break;
     }
@@ -74,8 +82,7 @@ std::string identity(const file::Image& entry) {
 
 }  // namespace
 
-ImageStore::ImageStore(Document& document, std::vector<Texture>& textures)
-    : document_(document), textures_(textures), texture_memory_("the textures", document.options.limits.max_texture_bytes) {}
+ImageStore::ImageStore(Document& document, std::vector<Texture>& textures) : document_(document), textures_(textures) {}
 
 ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, int texture) {
     check_time();
@@ -105,10 +112,12 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
     const std::string_view type = mime_type_of(header.format);
     if (!entry.mime_type.empty() && entry.mime_type != type)
         document_.warn(fmt::format("images[{}].mimeType: is \"{}\", but the picture is {}", image, printable(entry.mime_type, 40), type));
-    if (texture_bytes(header) > texture_memory_.left())
-        refuse(where, fmt::format("the textures would take more than {} MB, which is the limit", limits.max_texture_bytes >> 20),
+    const std::uint64_t bytes_of_all = texture_bytes_ + texture_bytes(header.width, header.height);
+    pixels_ += static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
+    if (bytes_of_all > limits.max_texture_bytes && (document_.options.strict || pixels_ > kMostPixelsAByte * limits.max_texture_bytes))
+        refuse(where, fmt::format("the textures would take more than {} MB, which is max_texture_bytes", limits.max_texture_bytes >> 20),
                ErrorCode::limit);
-    texture_memory_.take(texture_bytes(header));
+    texture_bytes_ = bytes_of_all;
     return {.texture = texture,
             .space = space,
             .rule = rule,
@@ -117,7 +126,9 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
             .bytes = bytes,
             .width = header.width,
             .height = header.height,
+            .skip_levels = 0,
             .keep_16_bits = header.bits == 16 && space == ColorSpace::linear,
+            .damage = {},
             .failure = nullptr};
 }
 
@@ -140,12 +151,17 @@ void ImageStore::lose(int texture, const LoadFailure& failure) {
     lost_.insert(texture);
 }
 
-Texture ImageStore::make(const Job& job) const {
+Texture ImageStore::make(Job& job) const {
     check_time();
     const LoadLimits& limits = document_.options.limits;
-    TextureRows rows(take(TextureBuilder::make(job.width, job.height, job.rule), job.where), job.space);
-    take(decode_rows(job.bytes, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans}, job.keep_16_bits, rows),
-         job.where);
+    const bool strict = document_.options.strict;
+    TextureRows rows(take(TextureBuilder::make(job.width, job.height, job.rule, job.skip_levels), job.where), job.space);
+    const ImageLimits image_limits{limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans, !strict};
+    if (const auto decoded = decode_rows(job.bytes, image_limits, job.keep_16_bits, rows); !decoded) {
+        if (strict || decoded.error().code != ErrorCode::bad_input || rows.added == 0)
+            refuse(job.where, decoded.error().message, decoded.error().code);
+        job.damage = fmt::format("{}; what was read of it is drawn", decoded.error().message);
+    }
     return rows.builder.finish();
 }
 
@@ -172,7 +188,40 @@ void ImageStore::run_jobs() {
     for (std::size_t i = next_job_++; i < jobs_.size(); i = next_job_++) run(jobs_[i]);
 }
 
+void ImageStore::fit_memory() {
+    const std::uint64_t limit = document_.options.limits.max_texture_bytes;
+    if (texture_bytes_ <= limit) return;
+    const auto bytes_of = [](const Job& job) {
+        return texture_bytes(std::max(1, job.width >> job.skip_levels), std::max(1, job.height >> job.skip_levels));
+    };
+    // The largest ones lose a level, until all fit.
+    std::uint64_t bytes = texture_bytes_, largest = 1;
+    while (bytes > limit && largest > 0) {
+        largest = 0;
+        for (const Job& job : jobs_)
+            if (std::max(job.width, job.height) >> job.skip_levels > 1) largest = std::max(largest, bytes_of(job));
+        bytes = 0;
+        for (Job& job : jobs_) {
+            job.skip_levels += largest > 0 && bytes_of(job) == largest && std::max(job.width, job.height) >> job.skip_levels > 1 ? 1 : 0;
+            bytes += bytes_of(job);
+        }
+    }
+    if (bytes > limit)
+        refuse("", fmt::format("{} textures take more than {} bytes, which is max_texture_bytes", jobs_.size(), limit), ErrorCode::limit);
+    std::size_t reduced = 0;
+    int least = kMaxTextureLevels, most = 0;
+    for (const Job& job : jobs_) {
+        if (job.skip_levels == 0) continue;
+        ++reduced;
+        least = std::min(least, job.skip_levels), most = std::max(most, job.skip_levels);
+    }
+    const std::string share = least == most ? fmt::format("1/{}", 1 << most) : fmt::format("1/{} to 1/{}", 1 << least, 1 << most);
+    document_.warn(fmt::format("the textures would take {} MB, max_texture_bytes is {} MB: {} of {} are kept at {} of their sides",
+                               texture_bytes_ >> 20, limit >> 20, reduced, jobs_.size(), share));
+}
+
 void ImageStore::start() {
+    fit_memory();
     const std::size_t count = other_threads();
     try {
         threads_.reserve(count);
@@ -193,6 +242,7 @@ void ImageStore::finish(std::vector<Material>& materials) {
     threads_.clear();
     // In order, so that what is reported does not depend on the threads.
     for (const Job& job : jobs_) {
+        if (!job.damage.empty()) document_.warn(fmt::format("{}: {}", job.where, job.damage));
         if (job.failure == nullptr) continue;
         try {
             std::rethrow_exception(job.failure);

@@ -48,13 +48,17 @@ private:
         std::vector<std::byte> owned;  ///< a file's content; empty if `bytes` lie in a buffer
         std::span<const std::byte> bytes;
         int width, height;
+        int skip_levels;  ///< largest levels of the texture that are left out
         bool keep_16_bits;
+        std::string damage;  ///< why not all of the picture could be read; empty: it was
         std::exception_ptr failure;
     };
 
     [[nodiscard]] Job prepare(int image, ColorSpace space, MipRule rule, int texture);
-    [[nodiscard]] Texture make(const Job& job) const;
+    [[nodiscard]] Texture make(Job& job) const;
     void run(Job& job);
+    /// Makes the textures smaller than their pictures where all of them would take more than their limit.
+    void fit_memory();
     [[nodiscard]] std::size_t other_threads() const;
     void run_jobs();
     /// Notes a texture without its picture, or throws the failure again.
@@ -62,7 +66,7 @@ private:
 
     Document& document_;
     std::vector<Texture>& textures_;
-    Budget texture_memory_;
+    std::uint64_t texture_bytes_ = 0, pixels_ = 0;  ///< of all pictures at their full size
     std::vector<Job> jobs_;
     std::set<int> lost_;                                                // textures without their pictures
     std::map<std::tuple<std::string, ColorSpace, MipRule>, int> made_;  // indexed by the picture's source

@@ -59,7 +59,8 @@ void fetch_buffers(Document& document) {
         }
         total += bytes.size();
         if (total > document.options.limits.max_total_bytes)
-            refuse(where, fmt::format("the buffers have more than {} bytes, which is the limit", document.options.limits.max_total_bytes),
+            refuse(where,
+                   fmt::format("the buffers have more than {} bytes, which is max_total_bytes", document.options.limits.max_total_bytes),
                    ErrorCode::limit);
         document.buffers[i] = document.options.strict ? bytes.first(static_cast<std::size_t>(entry.byte_length)) : bytes;
     }
@@ -161,7 +162,8 @@ void set_geometry_limit(Document& document) {
 
 std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     if (bytes.size() > options.limits.max_file_bytes)
-        refuse("", fmt::format("has {} bytes, the limit is {}", bytes.size(), options.limits.max_file_bytes), ErrorCode::limit);
+        refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
+               ErrorCode::limit);
     if (bytes.empty()) refuse("", "expected a glTF file, found no bytes at all");
     auto document = std::make_unique<Document>(options, base_dir);
     take(document->folder.check(), "");

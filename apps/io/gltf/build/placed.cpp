@@ -126,7 +126,7 @@ void place_lights(Document& document, const NodeTree& tree, LoadedScene& loaded)
         if (hidden && !document.animations.hides_node(static_cast<std::size_t>(n))) continue;
         if (hidden) light->color_linear = {};
         if (lights.size() >= document.options.limits.max_lights)
-            refuse("nodes", fmt::format("more than {} lights, which is the limit", document.options.limits.max_lights), ErrorCode::limit);
+            refuse("nodes", fmt::format("more than {} lights, which is max_lights", document.options.limits.max_lights), ErrorCode::limit);
         loaded.nodes[static_cast<std::size_t>(n)].light = static_cast<int>(lights.size());
         lights.push_back(*light);
     }

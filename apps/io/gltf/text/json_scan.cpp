@@ -53,7 +53,7 @@ private:
     }
     void count_token() {
         if (++tokens_ > limits_.max_tokens)
-            refuse(at_, fmt::format("more than {} JSON tokens, which is the limit", limits_.max_tokens), ErrorCode::limit);
+            refuse(at_, fmt::format("more than {} JSON tokens, which is max_json_tokens", limits_.max_tokens), ErrorCode::limit);
         check_();
     }
     [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
@@ -127,7 +127,7 @@ private:
         const char c = peek();
         if (c == '{' || c == '[') {
             if (static_cast<int>(open_.size()) >= limits_.max_depth)
-                refuse(at_, fmt::format("nested deeper than {} levels, which is the limit", limits_.max_depth), ErrorCode::limit);
+                refuse(at_, fmt::format("nested deeper than {} levels, which is max_json_depth", limits_.max_depth), ErrorCode::limit);
             ++at_;
             open_.push_back({c == '{', true, keys_.size()});
             visitor_.on_begin(c == '{' ? JsonType::object : JsonType::array, offset);

@@ -43,13 +43,14 @@ enum class ModelFormat : std::uint8_t {
 
 /// Above a limit, loading ends with ErrorCode::limit.
 struct LoadLimits {
-    std::size_t max_file_bytes = std::size_t{512} << 20;  ///< each file: the model, a buffer, a picture
-    std::size_t max_total_bytes = std::size_t{2} << 30;   ///< all buffers together
-    int max_json_depth = 64;                              ///< objects and arrays inside each other
-    std::size_t max_json_tokens = 50'000'000;             ///< names and values
-    std::size_t max_texture_bytes = std::size_t{1}
-                                    << 30;  ///< all textures, as the renderer keeps them (10.7 bytes per pixel), broken ones too
-    int max_texture_side = 16384;           ///< texels; at most kMaxTextureSide
+    std::size_t max_file_bytes = std::size_t{2} << 30;   ///< each file: the model, a buffer, a picture
+    std::size_t max_total_bytes = std::size_t{2} << 30;  ///< all buffers together
+    int max_json_depth = 64;                             ///< objects and arrays inside each other
+    std::size_t max_json_tokens = 50'000'000;            ///< names and values
+    /// All textures, as the renderer keeps them (10.7 bytes a pixel), broken ones too. Above it, the largest are kept at a half of their
+    /// sides, or less, with a warning, unless strict; pictures of more than one pixel for each byte of it are refused.
+    std::size_t max_texture_bytes = std::size_t{1} << 30;
+    int max_texture_side = 16384;                            ///< texels; at most kMaxTextureSide
     std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
     int max_jpeg_scans = 64;                                 ///< passes over the picture of a progressive JPEG, which bound its time
     /// All vertices, indices and instances together. A small file gets less: 32 MiB plus 96 bytes for each byte of the file. No real model
@@ -68,7 +69,7 @@ struct LoadOptions {
     std::vector<std::string> allow_external;
     LoadLimits limits;  ///< on memory and time
     /// Threads that decode textures, this one included; 0: one for each processor. The result is the same. While it decodes, a thread holds
-    /// up to 64 MB, or a whole JPEG or WebP picture, beside the texture.
+    /// up to 64 MB, or a whole picture if it is WebP, progressive JPEG or interlaced PNG, beside the texture.
     int threads = 0;
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
     /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of a point light (Light::source_radius) is small
