@@ -177,22 +177,36 @@ const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
     return is_near && shows_surface(scene, first, 1.0f) ? &first : nullptr;
 }
 
+namespace {
+
+/// A view that was asked for stays.
+bool is_usual(const ViewSettings& view) {
+    const ViewSettings usual;
+    return view.azimuth_deg == usual.azimuth_deg && view.elevation_deg == usual.elevation_deg;
+}
+
+}  // namespace
+
+ViewSettings front_view(const Scene& scene, ViewSettings view) {
+    if (scene.faces_back && is_usual(view)) view.azimuth_deg += 180.0f;
+    return view;
+}
+
 AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
     const FpEnvironment environment_of_host;
     AutoSetup setup;
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    setup.view = options.view;
+    setup.view = front_view(scene, options.view);
     setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, setup.view);
-    const ViewSettings usual;  // a view that was asked for stays
-    const bool any_side = options.view.azimuth_deg == usual.azimuth_deg && options.view.elevation_deg == usual.elevation_deg;
-    if (setup.framed && any_side && !shows_surface(scene, setup.camera, aspect)) {
+    if (setup.framed && is_usual(options.view) && !shows_surface(scene, setup.camera, aspect)) {
         setup.view = visible_side(scene, bounds, aspect, setup.view);
         setup.camera = frame_scene(scene, bounds, aspect, setup.view);
     }
     setup.settings = usual_settings();
     setup.settings.shadow_size = shadow_size_for(width, height);
+    setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
     const float exposure = complete(setup.light, bounds, setup.camera, options);
     setup.settings.exposure = options.exposure.value_or(exposure);

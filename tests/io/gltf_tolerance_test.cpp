@@ -182,6 +182,11 @@ TEST_CASE("tolerance: the sides of a skinned mesh are by the sign of its node's 
     }
 }
 
+TEST_CASE("tolerance: an avatar of VRM 0.x faces back, one of VRM 1.0 does not", "[io]") {
+    CHECK(load_ok(triangle_file("\"asset\"", R"("extensionsUsed":["VRM"],"asset")")).scene.faces_back);
+    CHECK_FALSE(load_ok(triangle_file("\"asset\"", R"("extensionsUsed":["VRMC_vrm"],"asset")")).scene.faces_back);
+}
+
 TEST_CASE("tolerance: an animation that begins without size is drawn at another time", "[io]") {
     TriangleFile file;
     Bytes times, scales;

@@ -107,6 +107,22 @@ TEST_CASE("tolerance: OBJ with odd numbers, faces and orders is drawn", "[io][ob
     for (const char* bad : {"f 1 2\nf 1 2 3\n", "vt 0 0\nf 1/9 2/1 3/1\n"}) CHECK_FALSE(load_any(to_bytes(kTriangle + bad)));
 }
 
+TEST_CASE("tolerance: text of two bytes a character is read, in both orders, pairs too", "[io]") {
+    const std::u16string text = u"# \U0001F600\xD800 caf\u00E9\no \U0001F600\u00E9\xD800\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (const bool little : {true, false}) {
+        Bytes file;
+        for (const char16_t unit : u"\uFEFF" + text) {
+            const std::byte low{static_cast<std::uint8_t>(unit & 0xFF)}, high{static_cast<std::uint8_t>(unit >> 8)};
+            file.push_back(little ? low : high);
+            file.push_back(little ? high : low);
+        }
+        const LoadedScene loaded = load_any_ok(file);
+        CHECK(loaded.info.triangles_drawn == 1);
+        CHECK(is_warned(loaded, "UTF-16"));
+        CHECK_FALSE(load_any(file));
+    }
+}
+
 TEST_CASE("tolerance: STL with a count of 0, a wrong one, and a text that was cut off", "[io][stl]") {
     Bytes file(84, std::byte{0});
     for (int t = 0; t < 2; ++t) {

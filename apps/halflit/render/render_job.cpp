@@ -117,12 +117,15 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     if (options.settings.background_environment && job.light.environment == nullptr)
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = choice->camera;
-    if (choice->framed) warn_of_side(job, options.view, choice->view);
+    if (choice->framed) warn_of_side(job, front_view(job.scene(), options.view), choice->view);
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
     job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
-    const auto& chosen = options.given_settings;
-    if (std::find(chosen.begin(), chosen.end(), "shadow_size") == chosen.end()) job.settings.shadow_size = choice->settings.shadow_size;
+    const auto is_given = [&](std::string_view name) {
+        return std::find(options.given_settings.begin(), options.given_settings.end(), name) != options.given_settings.end();
+    };
+    if (!is_given("shadow_size")) job.settings.shadow_size = choice->settings.shadow_size;
+    if (!is_given("point_size")) job.settings.point_size = choice->settings.point_size;
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return {};
 }
@@ -143,10 +146,11 @@ PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureS
     if (request.frame || (!options.camera && choose_camera(job.scene(), bounds) == nullptr)) {
         const PictureSize size = options.size.value_or(usual);
         const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-        request.camera = film_camera(job.scene(), bounds, options.film, aspect, options.view);
+        const ViewSettings front = front_view(job.scene(), options.view);
+        request.camera = film_camera(job.scene(), bounds, options.film, aspect, front);
         if (request.camera && !options.own_view() && !shows_surface(job.scene(), *request.camera, aspect)) {
-            const ViewSettings view = visible_side(job.scene(), bounds, aspect, options.view);
-            warn_of_side(job, options.view, view);
+            const ViewSettings view = visible_side(job.scene(), bounds, aspect, front);
+            warn_of_side(job, front, view);
             request.camera = film_camera(job.scene(), bounds, options.film, aspect, view);
         }
     }

@@ -138,6 +138,8 @@ LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_di
     }
     if (!motion) make_visible(*document, loaded.scene);
     loaded.scene.calibrated = loaded.scene.lights.empty();
+    const std::vector<std::string_view>& used = document->file.extensions_used;
+    loaded.scene.faces_back = std::find(used.begin(), used.end(), "VRM") != used.end();  // VRM 0.x; avatars of VRM 1.0 face +z
     if (loaded.scene.instances.empty() && document->first_failure) throw LoadFailure{*document->first_failure};  // nothing is left
     if (loaded.scene.instances.empty()) document->warn("the model has nothing to draw");
     loaded.warnings = document->take_warnings();

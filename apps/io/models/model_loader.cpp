@@ -6,6 +6,7 @@
 #include "apps/io/files/text.hpp"
 #include "apps/io/gltf/loader.hpp"
 #include "apps/io/models/formats.hpp"
+#include "apps/io/models/model_readers.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
@@ -31,10 +32,46 @@ Result<std::vector<std::string>> io::files_named_by(const std::string& path, con
 
 namespace {
 
+/// Text of two bytes a character, which begins with a mark, as UTF-8; empty if it is none. A half of a pair becomes '?'.
+std::string utf8_of_utf16(std::span<const std::byte> bytes) {
+    const auto at = [&](std::size_t i) { return std::to_integer<std::uint32_t>(bytes[i]); };
+    if (bytes.size() < 4 || fits_binary_stl(bytes)) return {};
+    const bool little = at(0) == 0xFF && at(1) == 0xFE && at(3) == 0, big = at(0) == 0xFE && at(1) == 0xFF && at(2) == 0;
+    if (!little && !big) return {};
+    const auto unit = [&](std::size_t i) { return little ? at(i) | at(i + 1) << 8 : at(i) << 8 | at(i + 1); };
+    std::string text;
+    text.reserve(bytes.size() / 2);
+    for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+        std::uint32_t code = unit(i);
+        if (code >= 0xD800 && code < 0xDC00 && i + 3 < bytes.size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
+            code = 0x10000 + ((code - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
+            i += 2;
+        } else if (code >= 0xD800 && code < 0xE000) {
+            code = '?';
+        }
+        const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
+        if (code < 0x80) {
+            put(code);
+        } else if (code < 0x800) {
+            put(0xC0 | code >> 6), put(0x80 | (code & 0x3F));
+        } else if (code < 0x10000) {
+            put(0xE0 | code >> 12), put(0x80 | (code >> 6 & 0x3F)), put(0x80 | (code & 0x3F));
+        } else {
+            put(0xF0 | code >> 18), put(0x80 | (code >> 12 & 0x3F)), put(0x80 | (code >> 6 & 0x3F)), put(0x80 | (code & 0x3F));
+        }
+    }
+    return text;
+}
+
 LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     if (bytes.size() > options.limits.max_file_bytes)
         refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
                ErrorCode::limit);
+    if (const std::string text = options.strict ? std::string() : utf8_of_utf16(bytes); !text.empty()) {
+        LoadedScene loaded = read_model(std::as_bytes(std::span(text)), base_dir, options);
+        loaded.warnings.emplace_back("the text has two bytes a character (UTF-16), read as such");
+        return loaded;
+    }
     const FormatRow* const row = find_format(bytes);
     // The glTF reader says what is wrong with a file that is nothing at all.
     if (const ForeignFormat* const foreign = find_foreign_format(bytes))

@@ -62,13 +62,16 @@ struct PictureChoice : AutoSetup {
 /// wide, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
+/// `view`, or with the usual angles, the same from the side that the scene faces (Scene::faces_back).
+[[nodiscard]] HALFLIT_API ViewSettings front_view(const Scene& scene, ViewSettings view);
+
 /// Chooses camera, light and exposure for a picture of width x height pixels. To the scene's own light it adds what that lacks:
 ///   - no light at all: the studio with a key light (add_studio; StudioUse::never: add_default_lights), exposure 1;
 ///   - lights of a file (Scene::calibrated is false): an exposure from the lights (auto_exposure), and where nothing else lights it from
 ///     all around, 0.15 of the studio if there is a directional light, 0.5 if there are point and spot lights alone (StudioUse::never:
 ///     soft_ambient);
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
-/// Nothing depends on pixels.
+/// Points get a size at which they close their surface (closing_point_size). Nothing depends on pixels.
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options = {});
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);

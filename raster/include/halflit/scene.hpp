@@ -20,6 +20,7 @@ struct Scene : Lighting {
     std::vector<Material> materials;  ///< shared by meshes
     std::vector<Texture> textures;    ///< shared by materials
     std::vector<Camera> cameras;      ///< views to choose from; none is in use by itself
+    bool faces_back = false;          ///< its front is towards -z: auto_setup looks from there
 };
 
 /// World-space bounds of everything drawn but shadow catchers. Vertices that are not finite are left out.

@@ -85,6 +85,10 @@ constexpr LeftOut kLeftOut[] = {
     {"KHR_xmp_json_ld", "nothing is left out of the picture"},
     {"MSFT_lod", "the finest level is drawn"},
     {"MSFT_texture_dds", "the pictures of other formats are drawn"},
+    {"VRM", "the avatar is drawn with its plain materials, as it stands"},
+    {"VRMC_materials_mtoon", "the plain materials are drawn"},
+    {"VRMC_springBone", "nothing swings"},
+    {"VRMC_vrm", "the avatar is drawn as it stands"},
 };
 
 }  // namespace
