@@ -101,25 +101,26 @@ struct Renderer::Impl {
         surface.make(geometry, surface_materials, kernels, executor);
     }
 
-    /// Draws what is seen through glass that blurs or bends light.
-    WorkCounts draw_behind(const PicturePass& pass) {
+    /// Draws what is seen through glass that blurs or bends light, the first half of the progress.
+    TileCounts draw_behind(const PicturePass& pass, const Execution& execution) {
         const Target target = behind.target(plan.picture, executor.stop());
-        const Region written = std::exchange(plan.written, plan.picture.region);
-        PicturePass all = {pass.view, plan, Output(target, plan.written), pass.reference, nullptr};
+        PicturePass all = {pass.view, plan, Output(target, plan.picture.region), pass.reference, nullptr, plan.picture.region};
         all.view.behind = true;
-        const TileCounts tiles = draw_tiles(all, {});
-        plan.written = written;
+        Execution watched;
+        if (execution.progress) watched.progress = [&](double done) { execution.progress(0.5 * done); };
+        const TileCounts tiles = draw_tiles(all, watched, 0.0);
         plan.shading.behind = behind.make(plan.picture, plan.exposure, executor);
-        return tiles.work;
+        return tiles;
     }
 
-    TileCounts draw_tiles(const PicturePass& pass, const Execution& execution) {
+    /// begun: the progress before.
+    TileCounts draw_tiles(const PicturePass& pass, const Execution& execution, double begun) {
         std::mutex counting;
         TileCounts sum;
         int done = 0;
         const int count = plan.picture.tile_count();
         executor.run(count, [&](int tile) {
-            const TileRect rect = intersection(plan.picture.tile_rect(tile), plan.written);
+            const TileRect rect = intersection(plan.picture.tile_rect(tile), pass.written);
             TileCounts counts;
             if (rect.width > 0 && rect.height > 0) {
                 Pool<TileScratch>::Loan loan(scratch);
@@ -129,7 +130,7 @@ struct Renderer::Impl {
             const std::lock_guard lock(counting);
             sum += counts;
             ++done;
-            if (execution.progress) execution.progress(static_cast<double>(done) / count);
+            if (execution.progress) execution.progress(begun + (1.0 - begun) * done / count);
         });
         return sum;
     }
@@ -170,9 +171,12 @@ struct Renderer::Impl {
                                plan,
                                output,
                                by_reference ? &reference : nullptr,
-                               output.has_surface() ? &surface_pass : nullptr};
-        if (plan.looks_through) report.work += draw_behind(pass);
-        const TileCounts tiles = draw_tiles(pass, execution);
+                               output.has_surface() ? &surface_pass : nullptr,
+                               plan.written};
+        TileCounts behind_counts;
+        if (plan.looks_through) behind_counts = draw_behind(pass, execution);
+        TileCounts tiles = draw_tiles(pass, execution, plan.looks_through ? 0.5 : 0.0);
+        tiles.work += behind_counts.work, tiles.fragments_shaded += behind_counts.fragments_shaded;
         report.ms.tiles = watch.lap();
 
         report.threads = executor.threads();

@@ -16,6 +16,7 @@ struct PicturePass {
     Output output;
     const ReferenceShading* reference;  ///< shades instead of the kernels; null: the kernels shade
     const TilePass* surface;            ///< reads what the planes of surfaces need; null: there are none
+    Region written;                     ///< pixels of the output; the picture's region may be larger
 };
 
 class PictureTile {
@@ -27,9 +28,8 @@ public:
           rect_(plan_.picture.tile_rect(tile)),
           samples_(plan_.picture.samples.count),
           scratch_(scratch),
-          written_(intersection(rect_, plan_.written)),
-          toned_(plan_.tone_curve != ToneCurve::none && pass.output.codes),
-          transmits_(plan_.transmits) {}
+          written_(intersection(rect_, pass.written)),
+          toned_(plan_.tone_curve != ToneCurve::none && pass.output.codes) {}
 
     TileCounts draw();
 
@@ -66,13 +66,29 @@ private:
     [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;  ///< LayerScratch::keep, of the scratch's block
     void blend_fragment(std::size_t fragment, int at, int sample);           ///< lays a fragment of the layers over a sample
     // resolve.cpp
-    [[nodiscard]] Vec4f background_sample() const;  ///< of the background colour: times alpha, and alpha
+    [[nodiscard]] Vec4f background_at(int at) const;  ///< of a pixel; at: in the tile's buffers
+    [[nodiscard]] Vec4f background_sample() const;    ///< of the background colour: times alpha, and alpha
     [[nodiscard]] bool has_background() const { return plan_.background && !pass_.view.behind; }  ///< an environment is seen
-    void clear();                                                               ///< fills a tile that has triangles with the background
-    void fill_background();                                                     ///< writes a tile that has no triangles
+    void clear();            ///< fills a tile that has triangles with the background
+    void fill_background();  ///< writes a tile that has no triangles
+    struct Pixel {
+        Vec4f linear{0, 0, 0, 0};
+        std::uint32_t code = 0;  ///< as the caller's memory has it
+    };
+    [[nodiscard]] Pixel background_pixel() const;                               ///< of the background colour
     void fill_samples();                                                        ///< sets every sample to the environment behind its pixel
     void write(const FragmentList& list, const shading::FragmentBlock& block);  ///< to the caller's memory or to samples
     void write_samples(const FragmentList& list, const shading::FragmentBlock& block);
+    void write_whole(const FragmentList& list, const shading::FragmentBlock& block);  ///< the pixels all of whose samples a fragment has
+    /// Place of a pixel's samples, which hold the background before the first call; at: of the pixel in the tile's buffers.
+    [[nodiscard]] int part_of(int at);
+    /// Pixels from `at` on in the buffers of samples, at most kTileStride: display light and linear light.
+    struct ResolvedPixels {
+        alignas(64) float linear[4][kTileStride];
+        alignas(64) std::uint32_t code[kTileStride];
+    };
+    void resolve(int at, int count, ResolvedPixels& out);
+    void resolve_parts();  ///< and the background between whole pixels
     [[nodiscard]] bool is_written(int x_px, int y_px) const {
         return x_px >= written_.x && x_px < written_.x + written_.width && y_px >= written_.y && y_px < written_.y + written_.height;
     }
@@ -105,8 +121,9 @@ private:
     TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
     bool toned_;              ///< codes are written, through a tone curve
-    bool transmits_;          ///< light passes through some drawn material
+    bool transmits_ = false;  ///< light passes through some layer of the picture
     bool has_shown_ = false;  ///< some fragment of the tile has a colour of the display, and there is a tone curve
+    bool has_whole_ = false;  ///< pixels that one triangle covers are written at once: there are several samples, but no layers
     bool direct_ = true;      ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 

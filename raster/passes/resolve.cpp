@@ -2,6 +2,7 @@
 #include "raster/passes/picture_tile.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace halflit::raster {
@@ -34,6 +35,14 @@ void PictureTile::clear() {
         return;
     }
     float* color = scratch_.color.reserve(static_cast<std::size_t>(samples_) * 4 * kTilePixels);
+    if (has_whole_) {
+        TileScratch::PartPixels& parts = scratch_.parts;
+        std::fill_n(parts.whole, kMaxTileSize, std::uint64_t{0});
+        std::fill_n(parts.part, kMaxTileSize, std::uint64_t{0});
+        parts.count = 0;
+        if (toned_) scratch_.backing.reserve(static_cast<std::size_t>(samples_) * kTilePixels);
+        return;
+    }
     const Vec4f back = background_sample();
     for (int i = 0; i < samples_ * kTilePixels; ++i) std::memcpy(color + 4 * i, &back, sizeof back);
     fill_backing(1.0f);
@@ -84,13 +93,92 @@ Vec4f PictureTile::light_of(const shading::FragmentBlock& block, int lane, float
             number_or_zero(block.blue[lane] * exposure) * a, a};
 }
 
+int PictureTile::part_of(int at) {
+    TileScratch::PartPixels& parts = scratch_.parts;
+    std::uint64_t& row = parts.part[at / kTileStride];
+    const std::uint64_t bit = std::uint64_t{1} << (at % kTileStride);
+    if ((row & bit) != 0) return parts.place[at];
+    row |= bit;
+    const int place = parts.count++;
+    parts.place[at] = static_cast<std::uint16_t>(place);
+    parts.pixel[place] = static_cast<std::uint16_t>(at);
+    const Vec4f back = background_at(at);
+    for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * place, &back, sizeof back);
+    if (toned_)
+        for (int s = 0; s < samples_; ++s) scratch_.backing.data()[s * kTilePixels + place] = has_background() ? 0.0f : 1.0f;
+    return place;
+}
+
+/// Of every sample of a pixel. An environment is light, as a surface's is.
+Vec4f PictureTile::background_at(int at) const {
+    if (!has_background()) return background_sample();
+    return number_or_zero(plan_.background.at(rect_.x + at % kTileStride, rect_.y + at / kTileStride));
+}
+
+/// All samples of a pixel have one value, whose mean is taken by the operations that the mean of samples takes.
+void PictureTile::write_whole(const FragmentList& list, const shading::FragmentBlock& block) {
+    const Output& output = pass_.output;
+    const float exposure = exposure_of(list.material), weight = 1.0f / static_cast<float>(samples_);
+    const auto all = static_cast<std::int32_t>((1u << samples_) - 1u);
+    const bool all_written = written_.width == rect_.width && written_.height == rect_.height;
+    alignas(64) float pixel[3][shading::kBlockSize];
+    const float* const light[3] = {block.red, block.green, block.blue};
+    const auto take_mean = [&](float* row) {
+        alignas(64) float sum[shading::kBlockSize];
+        std::memcpy(sum, row, sizeof sum);
+        for (int s = 1; s < samples_; ++s)
+            for (int l = 0; l < shading::kBlockSize; ++l) sum[l] += row[l];
+        for (int l = 0; l < shading::kBlockSize; ++l) row[l] = number_or_zero(sum[l] * weight);
+    };
+    const auto set_light = [&] {
+        for (int c = 0; c < 3; ++c)
+            for (int l = 0; l < shading::kBlockSize; ++l) pixel[c][l] = number_or_zero(light[c][l] * exposure);
+    };
+    const auto for_each = [&](const auto& write) {
+        for (int l = 0; l < list.count; ++l)
+            if (list.samples[l] == all && (all_written || is_written(list.x_px[l], list.y_px[l]))) write(l, list.x_px[l], list.y_px[l]);
+    };
+    if (output.codes) {
+        alignas(64) std::uint32_t code[shading::kBlockSize];
+        alignas(64) float opaque[shading::kBlockSize];
+        if (toned_ && !is_shown(list.material)) {
+            float* const display[3] = {pixel[0], pixel[1], pixel[2]};
+            tone(light, exposure, display, shading::kBlockSize);
+        } else {
+            set_light();
+        }
+        for (float* row : pixel) take_mean(row);
+        std::fill_n(opaque, shading::kBlockSize, 1.0f);
+        pass_.view.shade.encode_srgb8(pixel[0], pixel[1], pixel[2], opaque, 1.0f, code, list.count);
+        output.finish_codes(code, list.count);
+        for_each([&](int l, int x, int y) { std::memcpy(output.codes.at(x, y), &code[l], sizeof code[l]); });
+    }
+    if (output.linear) {
+        set_light();
+        for (float* row : pixel) take_mean(row);
+        for_each([&](int l, int x, int y) { output.write_linear(x, y, pixel[0][l], pixel[1][l], pixel[2][l], 1.0f); });
+    }
+    for (int l = 0; l < list.count; ++l)
+        if (list.samples[l] == all) scratch_.parts.whole[list.y_px[l] - rect_.y] |= std::uint64_t{1} << (list.x_px[l] - rect_.x);
+}
+
 void PictureTile::write_samples(const FragmentList& list, const shading::FragmentBlock& block) {
+    const auto all = static_cast<std::int32_t>((1u << samples_) - 1u);
+    int parts = list.count;  // fragments of a part of their pixel
+    if (has_whole_) {
+        parts = 0;
+        for (int l = 0; l < list.count; ++l) parts += list.samples[l] == all ? 0 : 1;
+        if (parts < list.count) write_whole(list, block);
+        if (parts == 0) return;
+    }
     const bool shown = toned_ && is_shown(list.material);
     if (shown) begin_shown();
     const float exposure = exposure_of(list.material);
     for (int l = 0; l < list.count; ++l) {
+        if (has_whole_ && list.samples[l] == all) continue;
         const Vec4f light = light_of(block, l, exposure);
-        const int at = (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
+        int at = (list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x);
+        if (has_whole_) at = part_of(at);
         for (auto samples = static_cast<unsigned>(list.samples[l]); samples != 0; samples &= samples - 1)
             std::memcpy(sample_color(__builtin_ctz(samples)) + 4 * at, &light, sizeof light);
         cover_backing(at, static_cast<unsigned>(list.samples[l]), 1.0f);
@@ -115,71 +203,120 @@ void PictureTile::fill_background() {
         resolve();
         return;
     }
-    // Goes through samples in every case. Otherwise it would round differently in a tile or region that has nothing to blend.
-    const Vec4f back = background_sample();
-    const float sample[4] = {back.x, back.y, back.z, back.w};
-    float sum[4] = {0, 0, 0, 0};
-    for (int s = 0; s < samples_; ++s)
-        for (int i = 0; i < 4; ++i) sum[i] += sample[i];
-    const Vec4f b = resolved(sum, 1.0f / static_cast<float>(samples_));
+    const Pixel back = background_pixel();
     const Output& output = pass_.output;
     if (output.codes) {
-        alignas(64) float red[16], green[16], blue[16], alpha[16];
-        for (int l = 0; l < 16; ++l) {
-            red[l] = b.x;
-            green[l] = b.y;
-            blue[l] = b.z;
-            alpha[l] = b.w;
-        }
         std::uint32_t code[kTileStride];
-        pass_.view.shade.encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
-        output.finish_codes(code, 1);
-        for (int x = 1; x < written_.width; ++x) code[x] = code[0];
+        std::fill_n(code, written_.width, back.code);
         for (int y = 0; y < written_.height; ++y)
             std::memcpy(output.codes.at(written_.x, written_.y + y), code, 4 * static_cast<std::size_t>(written_.width));
     }
     if (output.linear)
         for (int y = 0; y < written_.height; ++y)
-            for (int x = 0; x < written_.width; ++x) output.write_linear(written_.x + x, written_.y + y, b.x, b.y, b.z, b.w);
+            for (int x = 0; x < written_.width; ++x)
+                output.write_linear(written_.x + x, written_.y + y, back.linear.x, back.linear.y, back.linear.z, back.linear.w);
+}
+
+/// Goes through samples in every case. Otherwise it would round differently in a tile or region that has nothing to blend.
+PictureTile::Pixel PictureTile::background_pixel() const {
+    const Vec4f back = background_sample();
+    const float sample[4] = {back.x, back.y, back.z, back.w};
+    float sum[4] = {0, 0, 0, 0};
+    for (int s = 0; s < samples_; ++s)
+        for (int i = 0; i < 4; ++i) sum[i] += sample[i];
+    Pixel pixel{resolved(sum, 1.0f / static_cast<float>(samples_)), 0};
+    if (!pass_.output.codes) return pixel;
+    alignas(64) float red[16], green[16], blue[16], alpha[16];
+    alignas(64) std::uint32_t code[16];  // the kernel writes whole vectors
+    for (int l = 0; l < 16; ++l) {
+        red[l] = pixel.linear.x;
+        green[l] = pixel.linear.y;
+        blue[l] = pixel.linear.z;
+        alpha[l] = pixel.linear.w;
+    }
+    pass_.view.shade.encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
+    pass_.output.finish_codes(code, 1);
+    pixel.code = code[0];
+    return pixel;
 }
 
 void PictureTile::resolve() {
+    if (has_whole_) {
+        resolve_parts();
+        return;
+    }
+    const Output& output = pass_.output;
+    ResolvedPixels row;
+    for (int y = written_.y; y < written_.y + written_.height; ++y) {
+        resolve((y - rect_.y) * kTileStride + (written_.x - rect_.x), written_.width, row);
+        if (output.linear)
+            for (int x = 0; x < written_.width; ++x)
+                output.write_linear(written_.x + x, y, row.linear[0][x], row.linear[1][x], row.linear[2][x], row.linear[3][x]);
+        if (output.codes) std::memcpy(output.codes.at(written_.x, y), row.code, 4 * static_cast<std::size_t>(written_.width));
+    }
+}
+
+void PictureTile::resolve_parts() {
+    TileScratch::PartPixels& parts = scratch_.parts;
+    const Output& output = pass_.output;
+    // The background between them: an environment is seen through samples, as it is beside triangles.
+    const Pixel back = has_background() ? Pixel{} : background_pixel();
+    for (int y = written_.y; y < written_.y + written_.height; ++y) {
+        const std::size_t row = static_cast<std::size_t>(y - rect_.y);
+        const std::uint64_t wanted = (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x);
+        for (std::uint64_t left = wanted & ~(parts.whole[row] | parts.part[row]); left != 0; left &= left - 1) {
+            const int x = std::countr_zero(left);
+            if (has_background()) {
+                (void)part_of(static_cast<int>(row) * kTileStride + x);
+                continue;
+            }
+            if (output.codes) std::memcpy(output.codes.at(rect_.x + x, y), &back.code, sizeof back.code);
+            if (output.linear) output.write_linear(rect_.x + x, y, back.linear.x, back.linear.y, back.linear.z, back.linear.w);
+        }
+    }
+    ResolvedPixels some;
+    for (int first = 0; first < parts.count; first += kMaxTileSize) {
+        const int count = std::min(kMaxTileSize, parts.count - first);
+        resolve(first, count, some);
+        for (int i = 0; i < count; ++i) {
+            const int x = rect_.x + parts.pixel[first + i] % kTileStride, y = rect_.y + parts.pixel[first + i] / kTileStride;
+            if (!is_written(x, y)) continue;
+            if (output.codes) std::memcpy(output.codes.at(x, y), &some.code[i], sizeof some.code[i]);
+            if (output.linear) output.write_linear(x, y, some.linear[0][i], some.linear[1][i], some.linear[2][i], some.linear[3][i]);
+        }
+    }
+}
+
+void PictureTile::resolve(int at, int count, ResolvedPixels& out) {
     const Output& output = pass_.output;
     const float weight = 1.0f / static_cast<float>(samples_);
-    alignas(64) float row[4][kTileStride] = {};
-    alignas(64) std::uint32_t code[kTileStride];
-    const int x0 = written_.x - rect_.x, y0 = written_.y - rect_.y, count = written_.width;
-    const auto set = [&](int x, Vec4f pixel) {
-        row[0][x] = pixel.x;
-        row[1][x] = pixel.y;
-        row[2][x] = pixel.z;
-        row[3][x] = pixel.w;
+    const auto set = [](float(&to)[4][kTileStride], int x, Vec4f pixel) {
+        to[0][x] = pixel.x;
+        to[1][x] = pixel.y;
+        to[2][x] = pixel.z;
+        to[3][x] = pixel.w;
     };
-    for (int y = y0; y < y0 + written_.height; ++y) {
-        const int at = y * kTileStride + x0;
-        if (output.linear || !toned_)
-            for (int x = 0; x < count; ++x) {
-                float sum[4] = {0, 0, 0, 0};
-                for (int s = 0; s < samples_; ++s)
-                    for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (at + x) + i];
-                set(x, resolved(sum, weight));
-            }
-        if (output.linear)
-            for (int x = 0; x < count; ++x) output.write_linear(written_.x + x, rect_.y + y, row[0][x], row[1][x], row[2][x], row[3][x]);
-        if (!output.codes) continue;
-        if (toned_) {
-            float sums[4][kTileStride] = {};
-            float* const rows[4] = {sums[0], sums[1], sums[2], sums[3]};
-            add_toned_samples(at, count, rows);
-            for (int x = 0; x < count; ++x) {
-                const float sum[4] = {sums[0][x], sums[1][x], sums[2][x], sums[3][x]};
-                set(x, resolved(sum, weight));
-            }
+    if (output.linear || !toned_)
+        for (int x = 0; x < count; ++x) {
+            float sum[4] = {0, 0, 0, 0};
+            for (int s = 0; s < samples_; ++s)
+                for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (at + x) + i];
+            set(out.linear, x, resolved(sum, weight));
         }
-        pass_.view.shade.encode_srgb8(row[0], row[1], row[2], row[3], 1.0f, code, count);
-        output.finish_codes(code, count);
-        std::memcpy(output.codes.at(written_.x, rect_.y + y), code, 4 * static_cast<std::size_t>(count));
+    if (!output.codes) return;
+    alignas(64) float display[4][kTileStride] = {};
+    if (toned_) {
+        float sums[4][kTileStride] = {};
+        float* const rows[4] = {sums[0], sums[1], sums[2], sums[3]};
+        add_toned_samples(at, count, rows);
+        for (int x = 0; x < count; ++x) {
+            const float sum[4] = {sums[0][x], sums[1][x], sums[2][x], sums[3][x]};
+            set(display, x, resolved(sum, weight));
+        }
     }
+    const auto& shown = toned_ ? display : out.linear;
+    pass_.view.shade.encode_srgb8(shown[0], shown[1], shown[2], shown[3], 1.0f, out.code, count);
+    output.finish_codes(out.code, count);
 }
 
 }  // namespace halflit::raster

@@ -6,8 +6,11 @@
 namespace halflit::raster {
 
 TileCounts PictureTile::draw() {
-    direct_ = samples_ == 1 && !pass_.view.geometry.has(AlphaMode::blend);
+    const bool has_layers = pass_.view.geometry.has(AlphaMode::blend);
+    direct_ = samples_ == 1 && !has_layers;
+    transmits_ = plan_.transmits && has_layers;
     const bool empty = pass_.view.geometry.tile_is_empty(tile_);
+    has_whole_ = samples_ > 1 && !has_layers && !empty && pass_.reference == nullptr;
     if (empty) {
         fill_background();
     } else {

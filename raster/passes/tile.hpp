@@ -88,8 +88,18 @@ struct TileScratch {
     std::unique_ptr<LayerScratch> layers;  ///< where there are transparent triangles
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
-    RawBuffer<float> backing;              ///< share of the background colour in every sample; used only with a tone curve
-    RawBuffer<float> tint;                 ///< the same in red, green and blue; used only with a tone curve and materials that transmit
+    RawBuffer<float> backing;  ///< share of the background colour in every sample; used only with a tone curve
+    RawBuffer<float> tint;     ///< the same in red, green and blue; used only with a tone curve and materials that transmit
+    /// Where samples are combined but there are no layers, only pixels that no triangle covers as a whole have samples. These are kept one
+    /// after the other, in the order in which the pixels come.
+    struct PartPixels {
+        std::uint64_t whole[kMaxTileSize];  ///< pixels of a row of the tile that one triangle covers: they are written at once
+        std::uint64_t part[kMaxTileSize];   ///< those that have samples
+        std::uint16_t place[kTilePixels];   ///< of a pixel's samples
+        std::uint16_t pixel[kTilePixels];   ///< at a place, as an index into the tile's buffers
+        int count;
+    };
+    PartPixels parts;
     RawBuffer<float> shown;                ///< what shows in every sample of colours of the display: times alpha, and alpha
     std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's
 };
