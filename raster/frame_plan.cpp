@@ -2,6 +2,7 @@
 
 #include "raster/detail/guarded.hpp"
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/instance_material.hpp"
 #include "raster/scene/surface_distance.hpp"
 #include "raster/view/soft_shadows.hpp"
 #include "shading/light_cell.hpp"
@@ -120,7 +121,10 @@ void add_normal_warning(const PreparedData& scene, const shading::ShadingPlan& p
 void add_glass_warning(const PreparedData& scene, const shading::ShadingPlan& plan, std::vector<std::string>& warnings) {
     int objects = 0;
     for (std::size_t i = 0; i < scene.scene().instances.size(); ++i)
-        objects += plan.materials[scene.material_of(i)].transmission.looked_through ? 1 : 0;
+        objects +=
+            counts_for_views(scene.scene(), scene.scene().instances[i]) && plan.materials[scene.material_of(i)].transmission.looked_through
+                ? 1
+                : 0;
     if (objects > 1) warnings.push_back(std::to_string(objects) + " objects are of rough or thick glass: one is not seen through another");
 }
 

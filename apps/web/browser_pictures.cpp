@@ -110,8 +110,7 @@ Result<ImageHeader> read_jpeg_header(Bytes file, const ImageLimits& limits) {
 Result<void> decode_jpeg_rows(Bytes file, const ImageLimits& /*limits*/, RowSink& sink) {
     const auto image = given(file);
     if (!image) return tl::unexpected(image.error());
-    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image->width);
-    for (std::size_t at = 0; at < image->rgba8.size(); at += row) sink.add_row(&image->rgba8[at]);
+    add_rows(*image, sink);
     return {};
 }
 

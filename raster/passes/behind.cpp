@@ -9,8 +9,8 @@ namespace {
 int width_of(const View& view) { return static_cast<int>(2.0f * view.viewport.half_width); }
 int height_of(const View& view) { return static_cast<int>(2.0f * view.viewport.half_height); }
 
-/// Copies the outer texels of a row into its surround.
-void surround_row(float* row, int columns) {
+/// Copies the outer texels of a row into its border.
+void border_row(float* row, int columns) {
     std::memcpy(row, row + 4, 4 * sizeof(float));
     std::memcpy(row + 4 * static_cast<std::ptrdiff_t>(columns + 1), row + 4 * static_cast<std::ptrdiff_t>(columns), 4 * sizeof(float));
 }
@@ -40,7 +40,7 @@ shading::BehindPlan Behind::make(const View& view, float exposure, Executor& exe
     const auto row_of = [&](int level, int y) {
         return levels + 4 * (static_cast<std::ptrdiff_t>(plan.first[level]) + static_cast<std::ptrdiff_t>(y + 1) * plan.below[level]);
     };
-    const auto surround = [&](int level) {
+    const auto border = [&](int level) {
         const std::size_t bytes = 4 * sizeof(float) * static_cast<std::size_t>(plan.below[level]);
         std::memcpy(row_of(level, -1), row_of(level, 0), bytes);
         std::memcpy(row_of(level, rows(level)), row_of(level, rows(level) - 1), bytes);
@@ -55,9 +55,9 @@ shading::BehindPlan Behind::make(const View& view, float exposure, Executor& exe
             for (int c = 0; c < 3; ++c) to[c] = held(from[c] * per_exposure);
             to[3] = held(from[3]);
         }
-        surround_row(row, width);
+        border_row(row, width);
     });
-    surround(0);
+    border(0);
     // Each texel of the next level is the mean of four by four with the weights 1 3 3 1, a step of a quadratic B-spline.
     for (int k = 1; k < plan.levels; ++k) {
         executor.run(rows(k), [&](int y) {
@@ -77,9 +77,9 @@ shading::BehindPlan Behind::make(const View& view, float exposure, Executor& exe
                     to[c] = (across[0] + across[3]) * kOuter + (across[1] + across[2]) * kInner;
                 }
             }
-            surround_row(row, columns(k));
+            border_row(row, columns(k));
         });
-        surround(k);
+        border(k);
     }
     plan.rgba = levels;
     const Vec4f* const c = view.clip_from_world.c;

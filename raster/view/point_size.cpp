@@ -1,6 +1,8 @@
 // The size of points at which they close the surface that they lie on.
 #include "halflit/camera.hpp"
 #include "halflit/scene.hpp"
+#include "halflit/settings.hpp"
+#include "raster/scene/instance_material.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/fp_environment.hpp"
 #include "sh/time_limit.hpp"
@@ -14,11 +16,11 @@ namespace halflit {
 
 float closing_point_size(const Scene& scene, const Camera& camera, int width, int height) {
     const FpEnvironment environment_of_host;
-    constexpr float kLeast = 2.0f;         // pixels
-    constexpr double kOverlap = 1.6;       // of the mean distance between points: those at random cover nine tenths then
-    constexpr double kLayers = 2.0;        // a body has a side that is seen and one that is not
-    constexpr int kCells = 64;             // on the longer side of the picture
-    constexpr float kMostOfSide = 0.025f;  // of the shorter side
+    const float least = Settings{}.point_size;             // pixels
+    constexpr double kOverlap = 1.6;                       // of the mean distance between points: those at random cover nine tenths then
+    constexpr double kLayers = 2.0;                        // a body has a side that is seen and one that is not
+    constexpr int kCells = 64;                             // on the longer side of the picture
+    constexpr float kMostOfSide = 0.025f, kMost = 256.0f;  // of the shorter side; pixels
     const int longer = std::max(width, height), shorter = std::min(width, height);
     const Mat4 clip = raster::clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height));
     const double cell_px = static_cast<double>(longer) / kCells;
@@ -26,7 +28,7 @@ float closing_point_size(const Scene& scene, const Camera& camera, int width, in
     std::size_t met = 0, points = 0;
     TimeCheck check;
     for (const Instance& instance : scene.instances) {
-        if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
+        if (!raster::counts_for_views(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         if (mesh.topology != Topology::points) continue;
         const Mat4 clip_from_object = clip * instance.world_from_object;
@@ -46,9 +48,9 @@ float closing_point_size(const Scene& scene, const Camera& camera, int width, in
             if (cell < is_met.size() && !is_met[cell]) is_met[cell] = true, ++met;
         }
     }
-    if (points == 0) return kLeast;
+    if (points == 0) return least;
     const double distance = std::sqrt(kLayers * static_cast<double>(met) * cell_px * cell_px / static_cast<double>(points));
-    return std::clamp(static_cast<float>(kOverlap * distance), kLeast, std::max(kLeast, kMostOfSide * static_cast<float>(shorter)));
+    return std::clamp(static_cast<float>(kOverlap * distance), least, std::clamp(kMostOfSide * static_cast<float>(shorter), least, kMost));
 }
 
 }  // namespace halflit

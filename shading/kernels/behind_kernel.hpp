@@ -82,7 +82,7 @@ struct LookedThrough {
     const F roughness = load(rows.roughness + lane);
     const F blur = clamp((roughness - least) * F(1.0f / (1.0f - shading::kMinRoughness)), none, one) * F(material.transmission.blur);
     // Snell's law at the surface. A body is taken for a ball: the ray turns as much again where it leaves.
-    const F ratio(material.transmission.ratio), cosine = clamp(dot(normal, to_eye), none, one);
+    const F ratio(material.transmission.inverse_ior), cosine = clamp(dot(normal, to_eye), none, one);
     const F inside = vsqrt(vmax(one - (ratio * ratio) * (one - cosine * cosine), none));
     const F turn = ratio * cosine - inside;
     V3 bent{mad(normal.x, turn, vneg(ratio * to_eye.x)), mad(normal.y, turn, vneg(ratio * to_eye.y)),
@@ -98,7 +98,7 @@ struct LookedThrough {
     };
     const F w = vmax(along(behind.w), F(1e-30f));
     const F x = clamp(vdiv(along(behind.x), w), none, F(behind.width)), y = clamp(vdiv(along(behind.y), w), none, F(behind.height));
-    const Behind seen = seen_behind(behind, x, y, clamp(blur * F(behind.blurriest), none, to_float(I(behind.levels - 1))));
+    const Behind seen = seen_behind(behind, x, y, clamp(blur * F(behind.last_level), none, to_float(I(behind.levels - 1))));
     const F open = one - clamp(seen.coverage, none, one);
     const F share = sel(thick, one, vmin(blur * F(shading::kBehindFade), one));
     V3 around;

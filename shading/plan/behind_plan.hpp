@@ -1,4 +1,5 @@
-// What lies behind glass that blurs or bends light, as the kernels read it: the picture without such glass, and smaller copies of it.
+// What lies behind glass that blurs or bends light, as the kernels read it: the picture without such glass, and smaller copies of it. Other
+// renderers call it the transmission buffer.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +8,17 @@
 namespace halflit::shading {
 
 inline constexpr int kBehindLevels = 17;    ///< a picture of 2^16 pixels on a side has as many
-inline constexpr float kBehindFade = 4.0f;  ///< 1 / the blur from which on nothing of the background's colour shows through thin glass
+inline constexpr float kBehindFade = 4.0f;  ///< thin glass whose blur is the inverse shows nothing of the background's colour
 
-/// Levels of four floats a texel: light times coverage, and coverage by surfaces. Each level is surrounded by copies of its outer texels,
-/// one wide, so that three by three texels about any texel are there.
+/// Levels of four floats a texel: light times coverage, and coverage by surfaces. Each level has a border of copies of its outer texels,
+/// one wide, so that the three by three texels about any texel are there.
 struct BehindPlan {
     const float* rgba = nullptr;  ///< null: what lies behind is seen as through clear, flat glass
     std::int32_t levels = 0;
     float width = 0, height = 0;                                                    ///< of the picture, pixels
-    float blurriest = 0;                                                            ///< level that a blur of 1 reads
+    float last_level = 0;                                                           ///< levels - 1, which a blur of 1 reads
     float columns[kBehindLevels]{}, rows[kBehindLevels]{}, scale[kBehindLevels]{};  ///< texels; texels a pixel
-    std::int32_t first[kBehindLevels]{}, below[kBehindLevels]{};                    ///< first texel, its surround included; to the next row
+    std::int32_t first[kBehindLevels]{}, below[kBehindLevels]{};                    ///< first texel, of the border; row stride in texels
     /// Position in pixels of a point p, from the picture's upper left: (x . (p, 1)) / (w . (p, 1)).
     float x[4]{}, y[4]{}, w[4]{};
 
@@ -33,7 +34,7 @@ struct BehindPlan {
             next += (w_k + 2) * (h_k + 2);
             if (w_k == 1 && h_k == 1) break;
         }
-        blurriest = static_cast<float>(levels - 1);
+        last_level = static_cast<float>(levels - 1);
     }
     /// Texels of all levels.
     [[nodiscard]] std::size_t texels() const {

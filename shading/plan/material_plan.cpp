@@ -83,13 +83,13 @@ void plan_transmission(const Material& material, TransmissionPlan& plan) {
     }
 }
 
-/// Plans how light from behind is blurred, as the index of refraction makes the facets' slopes turn rays, and bent.
+/// Plans how light from behind is bent by the index of refraction, and blurred: the nearer the index is to 1, the less facets turn a ray.
 void plan_look_through(const Material& material, bool rough, TransmissionPlan& plan) {
     constexpr double kMostReflectance = 0.9;
     const double root =
         __builtin_sqrt(std::min(static_cast<double>(clamp_or_low(material.dielectric_reflectance, 0.0f, 1.0f)), kMostReflectance));
     const double index = (1.0 + root) / (1.0 - root);
-    plan.ratio = static_cast<float>(1.0 / index);
+    plan.inverse_ior = static_cast<float>(1.0 / index);
     plan.blur = static_cast<float>(std::min(1.0, 2.0 * (index - 1.0)));
     plan.thickness = clamp_or_low(material.thickness, 0.0f, kMostNumber);
     plan.looked_through = plan.blur > 0.0f && (rough || plan.thickness > 0.0f);

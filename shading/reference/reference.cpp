@@ -748,8 +748,11 @@ Vec3d passed_shares(const FrameInputs& frame, const Material& material, SlotMask
             channel(surface.base.z, material.attenuation_color.z)};
 }
 
+/// x in [low, high]; NaN counts as low.
+double held(double x, double low, double high) { return x > low ? std::min(x, high) : low; }
+
 double thickness_of(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
-    return double{material.thickness} *
+    return held(double{material.thickness}, 0.0, 1e18) *
            material_texture(frame, material.textures[TextureSlot::thickness], available, block, lane, {1, 1, 1, 1}).g;
 }
 
@@ -796,9 +799,9 @@ Through look_through(const FrameInputs& frame, const Material& material, const F
     const auto along = [&](const float(&row)[4]) {
         return double{row[0]} * exit.x + double{row[1]} * exit.y + double{row[2]} * exit.z + double{row[3]};
     };
-    const double w = std::max(along(behind.w), 1e-30), x = std::clamp(along(behind.x) / w, 0.0, double{behind.width}),
-                 y = std::clamp(along(behind.y) / w, 0.0, double{behind.height});
-    const double level = std::clamp(blur * double{behind.blurriest}, 0.0, behind.levels - 1.0);
+    const double w = held(along(behind.w), 1e-30, 1e300), x = held(along(behind.x) / w, 0.0, double{behind.width}),
+                 y = held(along(behind.y) / w, 0.0, double{behind.height});
+    const double level = held(blur * double{behind.last_level}, 0.0, behind.levels - 1.0);
     const int low = std::clamp(static_cast<int>(level), 0, std::max(behind.levels - 2, 0));
     const Rgba fine = behind_level(behind, low, x, y), coarse = behind_level(behind, std::min(low + 1, behind.levels - 1), x, y);
     const auto between = [&](double a, double b) { return a + (level - low) * (b - a); };

@@ -51,7 +51,8 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
              limit_flag("--max-json-tokens", limits.max_json_tokens, "JSON of more tokens", kAny),
              limit_flag("--max-texture-side", limits.max_texture_side, "textures with longer sides", kMaxTextureSide),
              limit_flag("--max-texture-pixels", limits.max_texture_pixels, "textures of more pixels", std::int64_t{1} << 28),
-             limit_flag("--max-texture-bytes", limits.max_texture_bytes, "more memory for all textures", kAny),
+             limit_flag("--max-texture-bytes", limits.max_texture_bytes,
+                        "more pixels of textures than this; keep textures smaller, so that they fit in so many bytes", kAny),
              limit_flag("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20),
              limit_flag("--max-geometry-bytes", limits.max_geometry_bytes, "more memory for vertices and triangles", kAny),
              limit_flag("--max-lights", limits.max_lights, "more lights", 1 << 20)}};

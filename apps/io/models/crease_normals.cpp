@@ -43,6 +43,7 @@ public:
         wedges_.clear();
         edges_.clear();
         for (const std::uint32_t corner : corners) {
+            check_();
             const std::uint32_t next = following(corner), last = following(next), number = static_cast<std::uint32_t>(wedges_.size());
             const Vec3d here = at(corner), to_next = at(next) - here, to_last = at(last) - here;
             wedges_.push_back({normal_of(corner / 3), angle_of(length(cross(to_next, to_last)), dot(to_next, to_last)), {}, number, kNone});
@@ -97,8 +98,10 @@ private:
         return wedge;
     }
     void join_smooth_edges(std::span<const std::uint32_t> corners) {
-        std::sort(edges_.begin(), edges_.end(),
-                  [](const Edge& a, const Edge& b) { return std::tie(a.to, a.wedge) < std::tie(b.to, b.wedge); });
+        std::sort(edges_.begin(), edges_.end(), [this](const Edge& a, const Edge& b) {
+            check_();
+            return std::tie(a.to, a.wedge) < std::tie(b.to, b.wedge);
+        });
         for (std::size_t i = 0; i < edges_.size();) {
             std::size_t end = i + 1;
             while (end < edges_.size() && edges_[end].to == edges_[i].to) ++end;
@@ -122,6 +125,7 @@ private:
     double least_cosine_;
     std::vector<Wedge> wedges_;
     std::vector<Edge> edges_;
+    TimeCheck check_;
 };
 
 }  // namespace
@@ -129,11 +133,7 @@ private:
 void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg) {
     soup.normal_of.resize(soup.position_of.size(), kNone);
     NormalMaker maker(soup, crease_deg);
-    TimeCheck check;
-    for (std::uint32_t place = 0; place < corners.places(); ++place) {
-        check();
-        maker.add_normals(corners.at(place));
-    }
+    for (std::uint32_t place = 0; place < corners.places(); ++place) maker.add_normals(corners.at(place));
 }
 
 }  // namespace halflit::io::detail

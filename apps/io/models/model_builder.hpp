@@ -76,7 +76,7 @@ public:
     LoadedScene finish(const ModelFrame& frame);
 
 private:
-    static constexpr std::uint64_t kPlaceBytes = 24;  ///< while equal positions are looked for
+    static constexpr std::uint64_t kPlaceBytes = 52;  ///< while equal positions are looked for
 
     int add_image(file::Image image, std::string where, ColorSpace space, MipRule rule);
 

@@ -16,20 +16,6 @@ namespace halflit {
 using namespace io::detail;
 using io::folder_of, io::printable, io::read_file;
 
-Result<std::vector<std::string>> io::files_named_by(const std::string& path, const LoadOptions& options) {
-    const TimeLimit limit(options.limits.time_limit_s);
-    try {
-        const auto bytes = read_file(path, options.limits.max_file_bytes);
-        const FormatRow* const row = bytes ? find_format(*bytes) : nullptr;
-        if (row == nullptr || row->files == nullptr) return std::vector<std::string>{};
-        return row->files(*bytes, folder_of(path), options);
-    } catch (const LoadFailure&) {
-        return std::vector<std::string>{};
-    } catch (const OutOfTime&) {
-        return fail(ErrorCode::limit, printable(path) + ": " + kOutOfTime);
-    }
-}
-
 namespace {
 
 /// Text of two bytes a character, which begins with a mark, as UTF-8; empty if it is none. A half of a pair becomes '?'.
@@ -41,7 +27,9 @@ std::string utf8_of_utf16(std::span<const std::byte> bytes) {
     const auto unit = [&](std::size_t i) { return little ? at(i) | at(i + 1) << 8 : at(i) << 8 | at(i + 1); };
     std::string text;
     text.reserve(bytes.size() / 2);
+    TimeCheck check;
     for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+        check();
         std::uint32_t code = unit(i);
         if (code >= 0xD800 && code < 0xDC00 && i + 3 < bytes.size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
             code = 0x10000 + ((code - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
@@ -63,6 +51,27 @@ std::string utf8_of_utf16(std::span<const std::byte> bytes) {
     return text;
 }
 
+}  // namespace
+
+Result<std::vector<std::string>> io::files_named_by(const std::string& path, const LoadOptions& options) {
+    const TimeLimit limit(options.limits.time_limit_s);
+    try {
+        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        if (!bytes) return std::vector<std::string>{};
+        const std::string text = utf8_of_utf16(*bytes);
+        const std::span<const std::byte> read = text.empty() ? std::span<const std::byte>(*bytes) : std::as_bytes(std::span(text));
+        const FormatRow* const row = find_format(read);
+        if (row == nullptr || row->files == nullptr) return std::vector<std::string>{};
+        return row->files(read, folder_of(path), options);
+    } catch (const LoadFailure&) {
+        return std::vector<std::string>{};
+    } catch (const OutOfTime&) {
+        return fail(ErrorCode::limit, printable(path) + ": " + kOutOfTime);
+    }
+}
+
+namespace {
+
 LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     if (bytes.size() > options.limits.max_file_bytes)
         refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
@@ -73,11 +82,11 @@ LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base
         return loaded;
     }
     const FormatRow* const row = find_format(bytes);
-    // The glTF reader says what is wrong with a file that is nothing at all.
     if (const ForeignFormat* const foreign = find_foreign_format(bytes))
         refuse("", fmt::format("is {}, which is not read; {}", foreign->name, foreign->advice));
-    if (row == nullptr && !bytes.empty()) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
-    return row == nullptr ? read_gltf(bytes, base_dir, options) : row->read(bytes, base_dir, options);
+    if (bytes.empty()) refuse("", "has no bytes at all");
+    if (row == nullptr) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
+    return row->read(bytes, base_dir, options);
 }
 
 }  // namespace

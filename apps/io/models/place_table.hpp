@@ -1,6 +1,8 @@
 // Finds equal positions: a hash table from positions to numbers.
 #pragma once
 
+#include "sh/time_limit.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -35,8 +37,8 @@ public:
             }
             if (held.tag == tag && bits(list[held.number]) == wanted) return held.number;
             if (++steps_ <= kMostSteps * finds_ + (std::uint64_t{1} << 20)) continue;
-            // Positions that were made to collide: where they lie now, nobody knows beforehand. Numbers do not depend on it.
-            seed_ = std::uint64_t{std::random_device()()} << 32 | std::random_device()();
+            // Positions that were made to collide. Nobody can make some for secrets that are drawn now; numbers do not depend on them.
+            for (std::uint64_t& secret : secret_) secret = std::uint64_t{std::random_device()()} << 32 | std::random_device()();
             steps_ = finds_ = 0;
             spread(slots_.size(), list);
             hash = hash_of(wanted);
@@ -59,20 +61,25 @@ private:
         const Scalar zero{0};
         return {std::bit_cast<Bits>(p.x + zero), std::bit_cast<Bits>(p.y + zero), std::bit_cast<Bits>(p.z + zero)};
     }
+    /// Both halves of a product of 128 bits, folded: each bit of a factor reaches every bit.
+    static std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
+        const std::uint64_t a0 = a & 0xFFFFFFFFu, a1 = a >> 32, b0 = b & 0xFFFFFFFFu, b1 = b >> 32;
+        const std::uint64_t low = a0 * b0, cross = a1 * b0 + (low >> 32), other = a0 * b1 + (cross & 0xFFFFFFFFu);
+        return (a1 * b1 + (cross >> 32) + (other >> 32)) ^ (other << 32 | (low & 0xFFFFFFFFu));
+    }
     [[nodiscard]] std::uint64_t hash_of(const std::array<Bits, 3>& key) const {
-        std::uint64_t h = seed_;
-        for (const Bits word : key) {
-            h = (h ^ word) * 0x9E3779B97F4A7C15u;
-            h ^= h >> 32;
-        }
-        return h * 0xD6E8FEB86659FD93u;
+        std::uint64_t h = secret_[3];
+        for (std::size_t i = 0; i < 3; ++i) h = folded_product(h ^ secret_[3], key[i] ^ secret_[i]);
+        return h;
     }
     [[nodiscard]] std::size_t first_slot(std::uint64_t hash) const { return static_cast<std::size_t>(hash >> 24) & (slots_.size() - 1); }
     /// Puts all numbers into a table of this size, a power of two.
     void spread(std::size_t size, const std::vector<V>& list) {
         std::vector<Slot> old(size);
         old.swap(slots_);
+        TimeCheck check;
         for (const Slot& moved : old) {
+            check();
             if (moved.number == kEmpty) continue;
             const std::uint64_t hash = hash_of(bits(list[moved.number]));
             std::size_t slot = first_slot(hash);
@@ -87,7 +94,8 @@ private:
     };
     std::vector<Slot> slots_;
     std::size_t used_ = 0;
-    std::uint64_t finds_ = 0, steps_ = 0, seed_ = 0;
+    std::uint64_t finds_ = 0, steps_ = 0;
+    std::uint64_t secret_[4] = {0x9E3779B97F4A7C15u, 0xD6E8FEB86659FD93u, 0xA0761D6478BD642Fu, 0xE7037ED1A0B428DBu};
 };
 
 }  // namespace halflit::io::detail

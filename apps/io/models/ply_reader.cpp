@@ -279,11 +279,12 @@ private:
         if (zeros > soup_.normals.size() / 10) soup_.normals.clear();
     }
 
-    /// Strays do not count: of each axis, the middle nine tenths.
+    /// Surveys have z up: clouds that are flat, and those that lie as far from the origin along x or y as maps do, but not along z. Strays
+    /// do not count: of each axis, the middle nine tenths.
     void note_flatness() {
-        constexpr double kFlat = 0.35;
+        constexpr double kFlat = 0.35, kFar = 100.0, kHeight = 0.1;
         constexpr std::size_t kSampled = 4096;
-        std::array<double, 3> extents{};
+        std::array<double, 3> extents{}, middle{};
         const std::size_t step = std::max<std::size_t>(1, soup_.positions.size() / kSampled);
         std::vector<double> at;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -294,9 +295,14 @@ private:
             }
             std::sort(at.begin(), at.end());
             extents[axis] = at[at.size() - 1 - at.size() / 20] - at[at.size() / 20];
+            middle[axis] = std::abs(at[at.size() / 2]);
         }
-        lies_flat_ = is_survey_ && extents[2] < kFlat * std::min(extents[0], extents[1]);
-        if (lies_flat_ && !builder_.options().up) builder_.document().warn("a cloud that is flat along z is drawn lying, with z up");
+        const double away = std::max(middle[0], middle[1]);
+        const bool on_map = away > kFar * std::max({extents[0], extents[1], extents[2]}) && middle[2] < kHeight * away;
+        lies_flat_ = on_map || (is_survey_ && extents[2] < kFlat * std::min(extents[0], extents[1]));
+        if (lies_flat_ && !builder_.options().up)
+            builder_.document().warn(on_map ? "a cloud that lies as on a map is drawn with z up"
+                                            : "a cloud that is flat along z is drawn lying, with z up");
     }
 
     /// Vertices without faces are points. Those without normals are not lit.

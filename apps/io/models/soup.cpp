@@ -78,8 +78,10 @@ std::vector<std::uint32_t> find_vertices(const Soup& soup, const CornersOfPlaces
             keys.push_back({number_at(soup.part_of, corner / 3), soup.normal_of[corner], number_at(soup.uv_of, corner),
                             number_at(soup.color_of, corner), corner});
         }
-        std::sort(keys.begin(), keys.end(),
-                  [](const Key& a, const Key& b) { return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values(); });
+        std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+            check();
+            return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values();
+        });
         for (std::size_t i = 0; i < keys.size(); ++i) {
             const bool same = i > 0 && keys[i].values() == keys[i - 1].values();
             vertex[keys[i].corner] = same ? vertex[keys[i - 1].corner] : keys[i].corner;

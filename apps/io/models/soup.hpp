@@ -28,7 +28,7 @@ struct Soup {
     /// For each triangle, where corners have no normal: kByCrease: smooth across edges that are not sharp; 0: flat; another number: smooth
     /// with all neighbours of the same number. Shorter: filled up with kByCrease.
     std::vector<std::uint32_t> smoothing_of;
-    bool distinct = false;  ///< no two positions are equal, nor do they become so when they are rounded to float32 where they are
+    bool distinct = false;  ///< the positions are float32's, and no two are equal
 
     static constexpr std::uint32_t kByCrease = kNone;
     [[nodiscard]] std::size_t triangles() const { return position_of.size() / 3; }

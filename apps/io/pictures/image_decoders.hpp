@@ -15,13 +15,16 @@ struct WholePicture : RowSink {
     [[nodiscard]] std::size_t row() const { return std::size_t{4} * static_cast<std::size_t>(image.width); }
 };
 
+void add_rows(const DecodedImage& image, RowSink& sink);
+
 Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits);
 /// As decode_rows; false: the file is interlaced, whose rows do not come in order, and nothing was added. If ImageLimits::keep_damaged,
 /// the rows of a file that is cut off within its pixels are added as far as they go.
 Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink);
 Result<ImageHeader> read_jpeg_header(std::span<const std::byte> file, const ImageLimits& limits);
-/// Rows that a damage leaves grey are added too if ImageLimits::keep_damaged, before it is returned.
+/// If ImageLimits::keep_damaged, the rows before a damage are added before it is returned; of a file of several scans, all rows, if it is
+/// behind the first scan.
 Result<void> decode_jpeg_rows(std::span<const std::byte> file, const ImageLimits& limits, RowSink& sink);
 /// Fails (bad_input) for a build without libwebp, and for animations.
 Result<ImageHeader> read_webp_header(std::span<const std::byte> file, const ImageLimits& limits);

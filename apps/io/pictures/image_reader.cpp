@@ -51,6 +51,12 @@ Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const I
     return {};
 }
 
+void add_rows(const DecodedImage& image, RowSink& sink) {
+    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image.width);
+    for (std::size_t at = 0; at < image.rgba8.size(); at += row) sink.add_row(&image.rgba8[at]);
+    for (std::size_t at = 0; at < image.rgba16.size(); at += row) sink.add_row(&image.rgba16[at]);
+}
+
 }  // namespace detail
 
 void RowSink::add_indexed_row(std::span<const std::uint8_t> indices, const Palette& palette) {
@@ -91,9 +97,7 @@ Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& lim
     if (*format == ImageFormat::jpeg) return detail::decode_jpeg_rows(file, limits, sink);
     const auto image = decode_image(file, limits, keep_16_bits);
     if (!image) return tl::unexpected(image.error());
-    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image->width);
-    for (std::size_t at = 0; at < image->rgba8.size(); at += row) sink.add_row(&image->rgba8[at]);
-    for (std::size_t at = 0; at < image->rgba16.size(); at += row) sink.add_row(&image->rgba16[at]);
+    detail::add_rows(*image, sink);
     return {};
 }
 

@@ -40,7 +40,9 @@ struct Decoder {
             // Extra bytes between segments are common and harmless; every other warning means wrong pixels.
             if (level >= 0 || common->err->msg_code == JWRN_EXTRANEOUS_DATA || common->err->msg_code == JWRN_ADOBE_XFORM) return;
             if (self->message[0] == '\0') common->err->format_message(common, self->message);
-            if (!self->keep_damaged) std::longjmp(self->escape, 1);  // libjpeg would fill the rest with grey
+            // libjpeg would fill the rest with grey. Of a file of several scans the later ones may be missing: they only add detail.
+            const bool in_first_scan = !jpeg_has_multiple_scans(&self->info) || self->info.input_scan_number < 2;
+            if (!self->keep_damaged || in_first_scan) std::longjmp(self->escape, 1);
         };
         errors.output_message = [](j_common_ptr) {};
         info.client_data = this;

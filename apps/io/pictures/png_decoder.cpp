@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -163,19 +164,19 @@ std::vector<std::byte> with_end(std::span<const std::byte> file) {
     for (std::size_t at = kSignature; at + kChunk < file.size();) {
         const auto number = [&](std::size_t i) { return std::to_integer<std::uint32_t>(file[i]); };
         const std::size_t size = number(at) << 24 | number(at + 1) << 16 | number(at + 2) << 8 | number(at + 3),
-                          left = file.size() - at - 8;
+                          left = file.size() - at - 8, data = std::min(size, left);
         if (size + 4 <= left) {
             at += size + kChunk;
             continue;
         }
         if (std::memcmp(&file[at + 4], "IDAT", 4) != 0) return {};
-        std::vector<std::byte> whole(file.begin(), file.end());
+        std::vector<std::byte> whole(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(at + 8 + data));
         const auto put = [](std::byte* to, std::size_t value) {
             for (int i = 0; i < 4; ++i) to[i] = static_cast<std::byte>(value >> (24 - 8 * i));
         };
-        put(&whole[at], left);
+        put(&whole[at], data);
         std::byte sum[4];
-        put(sum, libdeflate_crc32(0, &whole[at + 4], left + 4));
+        put(sum, libdeflate_crc32(0, &whole[at + 4], data + 4));
         whole.insert(whole.end(), sum, sum + 4);
         static constexpr std::uint8_t kEnd[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
         for (const std::uint8_t byte : kEnd) whole.push_back(static_cast<std::byte>(byte));
@@ -199,7 +200,9 @@ Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits&
     const auto png = open_for_pixels(file, limits);
     if (!png) return tl::unexpected(png.error());
     if (png->header.interlace_method != SPNG_INTERLACE_NONE) return false;
-    return add_rows(*png, file, keep_16_bits, sink).map([] { return true; });
+    if (auto added = add_rows(*png, file, keep_16_bits, sink); !added) return tl::unexpected(added.error());
+    if (!whole.empty()) return fail(ErrorCode::bad_input, "PNG: the file is cut off");
+    return true;
 }
 
 Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {

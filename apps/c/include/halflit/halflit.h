@@ -90,7 +90,7 @@ typedef struct halflit_load_options {
     uint64_t max_file_bytes;            ///< each file: the model, a buffer, a picture (2 GiB)
     uint64_t max_total_bytes;           ///< all buffers together (2 GiB)
     uint64_t max_json_tokens;           ///< names and values (50,000,000)
-    uint64_t max_texture_bytes;         ///< all textures together, 10.7 bytes a pixel (1 GiB)
+    uint64_t max_texture_bytes;         ///< all textures, 10.7 bytes a pixel; the largest are kept smaller until they fit (1 GiB)
     uint64_t max_texture_pixels;        ///< one texture (2^26)
     uint64_t max_geometry_bytes;        ///< all vertices, indices and instances together (16 GiB)
     uint64_t max_lights;                ///< lights of the drawn nodes (1024)

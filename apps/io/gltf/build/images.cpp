@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <map>
 #include <new>
 #include <system_error>
 
@@ -21,7 +23,7 @@ std::uint64_t texture_bytes(int width, int height) {
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 32 / 3;
 }
 
-/// Largest time that decoding takes, for a limit of memory: pixels for each byte of it. 1 GiB allows 16 pictures of 8192 x 8192.
+/// Pixels that may be decoded for each byte of max_texture_bytes, which bounds the time: 16 pictures of 8192 x 8192 for 1 GiB.
 constexpr std::uint64_t kMostPixelsAByte = 1;
 
 /// Takes a picture that is lost out of a material. A factor that scales what the picture has only here and there is off without it.
@@ -114,7 +116,12 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
         document_.warn(fmt::format("images[{}].mimeType: is \"{}\", but the picture is {}", image, printable(entry.mime_type, 40), type));
     const std::uint64_t bytes_of_all = texture_bytes_ + texture_bytes(header.width, header.height);
     pixels_ += static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
-    if (bytes_of_all > limits.max_texture_bytes && (document_.options.strict || pixels_ > kMostPixelsAByte * limits.max_texture_bytes))
+    if (pixels_ > kMostPixelsAByte * limits.max_texture_bytes)
+        refuse(where,
+               fmt::format("the textures have more than {} pixels, one for each byte of max_texture_bytes",
+                           kMostPixelsAByte * limits.max_texture_bytes),
+               ErrorCode::limit);
+    if (bytes_of_all > limits.max_texture_bytes && document_.options.strict)
         refuse(where, fmt::format("the textures would take more than {} MB, which is max_texture_bytes", limits.max_texture_bytes >> 20),
                ErrorCode::limit);
     texture_bytes_ = bytes_of_all;
@@ -160,7 +167,7 @@ Texture ImageStore::make(Job& job) const {
     if (const auto decoded = decode_rows(job.bytes, image_limits, job.keep_16_bits, rows); !decoded) {
         if (strict || decoded.error().code != ErrorCode::bad_input || rows.added == 0)
             refuse(job.where, decoded.error().message, decoded.error().code);
-        job.damage = fmt::format("{}; what was read of it is drawn", decoded.error().message);
+        job.damage = fmt::format("{}; drawn as far as it was read, the rest as its last row", decoded.error().message);
     }
     return rows.builder.finish();
 }
@@ -195,15 +202,19 @@ void ImageStore::fit_memory() {
         return texture_bytes(std::max(1, job.width >> job.skip_levels), std::max(1, job.height >> job.skip_levels));
     };
     // The largest ones lose a level, until all fit.
-    std::uint64_t bytes = texture_bytes_, largest = 1;
-    while (bytes > limit && largest > 0) {
-        largest = 0;
-        for (const Job& job : jobs_)
-            if (std::max(job.width, job.height) >> job.skip_levels > 1) largest = std::max(largest, bytes_of(job));
-        bytes = 0;
-        for (Job& job : jobs_) {
-            job.skip_levels += largest > 0 && bytes_of(job) == largest && std::max(job.width, job.height) >> job.skip_levels > 1 ? 1 : 0;
-            bytes += bytes_of(job);
+    std::map<std::uint64_t, std::vector<std::size_t>> by_size;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) by_size[bytes_of(jobs_[i])].push_back(i);
+    std::uint64_t bytes = texture_bytes_;
+    while (bytes > limit && !by_size.empty()) {
+        const auto largest = std::prev(by_size.end());
+        const auto [before, jobs] = *largest;
+        by_size.erase(largest);
+        for (const std::size_t i : jobs) {
+            check_time();
+            if (std::max(jobs_[i].width, jobs_[i].height) >> jobs_[i].skip_levels <= 1) continue;
+            ++jobs_[i].skip_levels;
+            bytes = bytes - before + bytes_of(jobs_[i]);
+            by_size[bytes_of(jobs_[i])].push_back(i);
         }
     }
     if (bytes > limit)
@@ -216,8 +227,9 @@ void ImageStore::fit_memory() {
         least = std::min(least, job.skip_levels), most = std::max(most, job.skip_levels);
     }
     const std::string share = least == most ? fmt::format("1/{}", 1 << most) : fmt::format("1/{} to 1/{}", 1 << least, 1 << most);
-    document_.warn(fmt::format("the textures would take {} MB, max_texture_bytes is {} MB: {} of {} are kept at {} of their sides",
-                               texture_bytes_ >> 20, limit >> 20, reduced, jobs_.size(), share));
+    const auto megabytes = [](std::uint64_t n) { return static_cast<double>(n) / 1e6; };
+    document_.warn(fmt::format("the textures would take {:.3g} MB, max_texture_bytes is {:.3g} MB: {} of {} are kept at {} of their sides",
+                               megabytes(texture_bytes_), megabytes(limit), reduced, jobs_.size(), share));
 }
 
 void ImageStore::start() {

@@ -48,7 +48,7 @@ struct LoadLimits {
     int max_json_depth = 64;                             ///< objects and arrays inside each other
     std::size_t max_json_tokens = 50'000'000;            ///< names and values
     /// All textures, as the renderer keeps them (10.7 bytes a pixel), broken ones too. Above it, the largest are kept at a half of their
-    /// sides, or less, with a warning, unless strict; pictures of more than one pixel for each byte of it are refused.
+    /// sides, or less, with a warning, unless strict. Pictures that together have more pixels than this are refused.
     std::size_t max_texture_bytes = std::size_t{1} << 30;
     int max_texture_side = 16384;                            ///< texels; at most kMaxTextureSide
     std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
