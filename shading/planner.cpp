@@ -41,14 +41,16 @@ private:
 /// Reflections of surfaces that mirror no more than this, seen straight on, are taken by one lobe.
 constexpr float kFaintReflectance = 0.2f;
 
-void plan_environments(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
+/// budget_codes: 0: none, the environment is as exact as without one.
+void plan_environments(const PlanInputs& inputs, double budget_codes, PlanMemory& memory, ShadingPlan& plan) {
     if (inputs.environment == nullptr) return;
+    plan.environments.clear();
     EnvironmentOrder order;
     order.fixed = inputs.options.environment_bands;
     order.tolerance = inputs.options.environment_tolerance;
     order.exposure = inputs.exposure;
-    if (inputs.options.max_error_codes > 0.0) {
-        order.codes = inputs.options.max_error_codes * kBudgetShares.each_environment();
+    if (budget_codes > 0.0) {
+        order.codes = budget_codes * kBudgetShares.each_environment();
         order.costs = CodeCosts(tone_growth(inputs.tone_curve));
     }
     memory.environments.use(inputs.environment);
@@ -143,13 +145,22 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
                                                             : inputs.looks[i - count - 1],
                                                inputs.textures, inputs.available_slots[i], kinds, options));
     plan_shadows(inputs.shadows, plan);
-    plan_environments(inputs, memory, plan);
+    plan_environments(inputs, options.max_error_codes, memory, plan);
     HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));
-    if (inputs.facts != nullptr)
-        spend_error_budget(plan, options.max_error_codes, CodeCosts(tone_growth(inputs.tone_curve)), inputs.exposure, *inputs.facts,
-                           memory.fits);
-    else if (options.accuracy == Accuracy::exact)
-        plan_highlights(plan, memory.fits);
+    if (inputs.facts != nullptr) {
+        const CodeCosts costs(tone_growth(inputs.tone_curve));
+        if (may_keep(plan, options.max_error_codes, *inputs.facts)) {
+            spend_error_budget(plan, options.max_error_codes, costs, inputs.exposure, *inputs.facts, memory.fits);
+            return plan;
+        }
+        // What cannot be kept is not paid for: the frame is planned as without a budget.
+        plan_environments(inputs, 0.0, memory, plan);
+        plan.error.budget = options.max_error_codes;
+        plan.error.codes = plan.error.rounding = 255.0;
+        plan.error.within = false;
+        plan.error.tone_growth = costs.growth();
+    }
+    if (options.accuracy == Accuracy::exact) plan_highlights(plan, memory.fits);
     return plan;
 }
 

@@ -214,23 +214,24 @@ void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fra
         alignas(64) float color[kMaxSamples][4];
         for (int s = 0; s < samples_; ++s) std::memcpy(color[s], sample_color(s) + 4 * at, sizeof color[s]);
         const unsigned all = (1u << samples_) - 1u;
+        const bool transmits = transmits_, has_shown = has_shown_, toned = toned_;  // not read again after each store
         for (const std::uint64_t layer : layers.order) {
             const auto fragment = static_cast<std::uint32_t>(layer);
             const Vec4f light = layers.light[fragment];
             const unsigned samples = layers.fragments[fragment].samples;
-            if (transmits_) {
+            if (transmits) {
                 const Vec4f keep = layers.keep[fragment];
                 for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light, keep);
                 cover_backing(static_cast<int>(at), samples, light.w, keep);
-                if (has_shown_ && layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
+                if (has_shown && layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
                 continue;
             }
             if (samples == all)
                 for (int s = 0; s < samples_; ++s) blend(color[s], light);
             else
                 for (unsigned left = samples; left != 0; left &= left - 1) blend(color[std::countr_zero(left)], light);
-            cover_backing(static_cast<int>(at), samples, light.w);
-            if (has_shown_ && layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
+            if (toned) cover_backing(static_cast<int>(at), samples, light.w);
+            if (has_shown && layers.shows(fragment)) add_shown(static_cast<int>(at), samples, light);
         }
         for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * at, color[s], sizeof color[s]);
         return;

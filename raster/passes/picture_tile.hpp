@@ -84,7 +84,7 @@ private:
     [[nodiscard]] int part_of(int at);
     /// Pixels from `at` on in the buffers of samples, at most kTileStride: display light and linear light.
     struct ResolvedPixels {
-        alignas(64) float linear[4][kTileStride];
+        alignas(64) float linear[4][kTileStride]{}, display[4][kTileStride]{};
         alignas(64) std::uint32_t code[kTileStride];
     };
     void resolve(int at, int count, ResolvedPixels& out);

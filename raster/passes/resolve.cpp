@@ -304,17 +304,16 @@ void PictureTile::resolve(int at, int count, ResolvedPixels& out) {
             set(out.linear, x, resolved(sum, weight));
         }
     if (!output.codes) return;
-    alignas(64) float display[4][kTileStride] = {};
     if (toned_) {
         float sums[4][kTileStride] = {};
         float* const rows[4] = {sums[0], sums[1], sums[2], sums[3]};
         add_toned_samples(at, count, rows);
         for (int x = 0; x < count; ++x) {
             const float sum[4] = {sums[0][x], sums[1][x], sums[2][x], sums[3][x]};
-            set(display, x, resolved(sum, weight));
+            set(out.display, x, resolved(sum, weight));
         }
     }
-    const auto& shown = toned_ ? display : out.linear;
+    const auto& shown = toned_ ? out.display : out.linear;
     pass_.view.shade.encode_srgb8(shown[0], shown[1], shown[2], shown[3], 1.0f, out.code, count);
     output.finish_codes(out.code, count);
 }

@@ -122,8 +122,12 @@ void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4
     if (transmits_)
         for (int x = 0; x < count; ++x) plain &= share_of[0][x] == 0.0f && share_of[1][x] == 0.0f && share_of[2][x] == 0.0f;
     const float* const shown = has_shown_ ? scratch_.shown.data() + 4 * (s * kTilePixels + at) : nullptr;
+    // Glass leaves a colour of the display, but not its alpha.
+    const auto shows = [](const float* color_and_alpha) {
+        return color_and_alpha[0] != 0.0f || color_and_alpha[1] != 0.0f || color_and_alpha[2] != 0.0f || color_and_alpha[3] != 0.0f;
+    };
     if (shown != nullptr)
-        for (int x = 0; x < count; ++x) plain &= shown[4 * x + 3] == 0.0f;
+        for (int x = 0; x < count; ++x) plain &= !shows(shown + 4 * x);
     if (plain) {
         for (int x = 0; x < count; ++x)
             for (int i = 0; i < 3; ++i) light[i][x] = color[4 * x + i];
@@ -138,7 +142,7 @@ void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4
             }
             // Where light passes through, alpha is not the share of the surfaces, by which their light is multiplied.
             if (transmits_) left[3] = 1.0f - backing[x];
-            if (shown != nullptr && shown[4 * x + 3] > 0.0f) {
+            if (shown != nullptr && shows(shown + 4 * x)) {
                 for (int i = 0; i < 4; ++i) left[i] -= shown[4 * x + i];
                 // What rounding leaves of nothing would count as a very bright surface.
                 if (left[3] < 1e-4f) left[0] = left[1] = left[2] = left[3] = 0.0f;

@@ -155,6 +155,17 @@ double cutoff_squared(const LightPlan& light, double least) {
 
 }  // namespace
 
+bool may_keep(const ShadingPlan& plan, double budget_codes, const SceneFacts& facts) {
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        const MaterialPlan& material = plan.materials[i];
+        if (!facts.drawn[i] || (material.stages & kStageShadowCatcher) != 0) continue;
+        if (material.transmission.looked_through) return false;
+        if (material.environment >= 0 && plan.environments[static_cast<std::size_t>(material.environment)].bound_codes > budget_codes)
+            return false;
+    }
+    return true;
+}
+
 void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
                         PowerFits& fits) {
     HALFLIT_ASSERT(facts.light_attenuation.size() == plan.lights.size());

@@ -19,6 +19,9 @@ struct SceneFacts {
     double largest_uv = 0.0;                     ///< the largest texture coordinate; needed where texture coordinates are transformed
 };
 
+/// False if a budget is surely exceeded, by the cheapest facts: the light of the environments, and glass that blurs or bends.
+[[nodiscard]] bool may_keep(const ShadingPlan& plan, double budget_codes, const SceneFacts& facts);
+
 /// Chooses the cheapest polynomials, cutoff radii and thresholds whose bounds, with those of float32 and of the bands, stay below
 /// `budget_codes` for each material, after the tone curve of `costs`. Writes plan.error. Shadows and the visible surfaces of a pixel are
 /// taken as given. Light that is computed once a vertex or a triangle has no bound. Fits are looked up in `fits`, and added there where

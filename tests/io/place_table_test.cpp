@@ -38,12 +38,16 @@ TEST_CASE("place table: the zeros are one place, and so is a NaN", "[io]") {
 }
 
 TEST_CASE("place table: positions that differ in few bits take no longer than others", "[io]") {
+    const auto check = [](const auto& position_of) {
+        PlaceTable<Vec3d> table;
+        std::vector<Vec3d> list;
+        for (std::uint64_t i = 0; i < 300'000; ++i)
+            if (table.add(position_of(i), list) != i) FAIL("a number differs");
+        CHECK(table.add(list[1000], list) == 1000);
+    };
+    check([](std::uint64_t i) { return Vec3d{static_cast<double>(i), 0, 0}; });
+    check([](std::uint64_t i) { return Vec3d{0, static_cast<double>(i), 0}; });
+    check([](std::uint64_t i) { return Vec3d{7, 7, static_cast<double>(i)}; });
     // They differ in the highest and in the lowest bits of two coordinates.
-    PlaceTable<Vec3d> table;
-    std::vector<Vec3d> list;
-    for (std::uint64_t i = 0; i < 300'000; ++i) {
-        const Vec3d p{std::bit_cast<double>(i % 600 << 50), std::bit_cast<double>(i / 600 << 40 | 1), 0};
-        if (table.add(p, list) != i) FAIL("a number differs");
-    }
-    CHECK(table.add(list[1000], list) == 1000);
+    check([](std::uint64_t i) { return Vec3d{std::bit_cast<double>(i % 600 << 50), std::bit_cast<double>(i / 600 << 40 | 1), 0}; });
 }

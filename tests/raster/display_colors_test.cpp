@@ -131,6 +131,37 @@ TEST_CASE("display colours: layers over them, and they as layers, mix what the d
         }
 }
 
+TEST_CASE("display colours: behind glass they are tinted, and each region has the bits of the whole", "[raster][blend]") {
+    Scene scene = cards();
+    Material glass;
+    glass.metallic = 0, glass.roughness = 0, glass.transmission = 1;
+    glass.base_color = {0.5f, 1, 1, 1};
+    scene.materials.push_back(glass);
+    scene.meshes.push_back(card(static_cast<int>(scene.materials.size()) - 1, -0.7f, 0.53f, 0.5f));
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, {}});
+    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::aces, ToneCurve::neutral})
+        for (const int samples : {1, 4}) {
+            Settings settings;
+            settings.tone_curve = curve;
+            settings.samples = samples;
+            settings.exposure = 1e-6f;  // of the pane's own light nothing is seen
+            const auto whole = draw(scene, settings);
+            for (const Region region : {Region{0, 0, 64, 7}, Region{11, 3, 1, 50}, Region{20, 20, 17, 5}, Region{33, 0, 31, 64}}) {
+                settings.region = region;
+                const auto part = draw(scene, settings);
+                int apart = 0;
+                for (int y = region.y; y < region.y + region.height; ++y)
+                    for (int x = region.x; x < region.x + region.width; ++x) apart += pixel(part, x, y) != pixel(whole, x, y) ? 1 : 0;
+                INFO(static_cast<int>(curve) << " " << samples << ", region " << region.x);
+                CHECK(apart == 0);
+            }
+            settings.region = {};
+            if (curve == ToneCurve::none) continue;
+            const int code = pixel(whole, 37, 32)[1];  // in the middle of the pane, over the code 128
+            CHECK(std::abs(code - 126) <= 3);
+        }
+}
+
 TEST_CASE("display colours: the setting emission_scale is a factor on emission alone", "[raster][settings]") {
     Scene scene = cards();
     scene.materials.back().emissive = {1e-3f, 2e-3f, 0};

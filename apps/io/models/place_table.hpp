@@ -68,7 +68,7 @@ private:
         return (a1 * b1 + (cross >> 32) + (other >> 32)) ^ (other << 32 | (low & 0xFFFFFFFFu));
     }
     [[nodiscard]] std::uint64_t hash_of(const std::array<Bits, 3>& key) const {
-        std::uint64_t h = secret_[3];
+        std::uint64_t h = 0;
         for (std::size_t i = 0; i < 3; ++i) h = folded_product(h ^ secret_[3], key[i] ^ secret_[i]);
         return h;
     }

@@ -122,7 +122,7 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
                            kMostPixelsAByte * limits.max_texture_bytes),
                ErrorCode::limit);
     if (bytes_of_all > limits.max_texture_bytes && document_.options.strict)
-        refuse(where, fmt::format("the textures would take more than {} MB, which is max_texture_bytes", limits.max_texture_bytes >> 20),
+        refuse(where, fmt::format("the textures would take more than {} bytes, which is max_texture_bytes", limits.max_texture_bytes),
                ErrorCode::limit);
     texture_bytes_ = bytes_of_all;
     return {.texture = texture,
@@ -184,11 +184,17 @@ void ImageStore::run(Job& job) {
 std::size_t ImageStore::other_threads() const {
     // A thread costs some tens of microseconds, and its memory; so many pixels take a millisecond.
     constexpr std::size_t kPixelsAThread = 1 << 17;
-    std::size_t pixels = 0;
-    for (const Job& job : jobs_) pixels += static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
+    std::size_t pixels = 0, largest = 1;
+    for (const Job& job : jobs_) {
+        const std::size_t of_job = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
+        pixels += of_job, largest = std::max(largest, of_job);
+    }
+    // All pictures that are decoded at a time take no more than the textures may.
+    constexpr std::size_t kBytesAPixel = 8;
+    const std::size_t fitting = std::max<std::size_t>(1, document_.options.limits.max_texture_bytes / kBytesAPixel / largest);
     const int wanted = document_.options.threads;
     const std::size_t most = wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1u, std::thread::hardware_concurrency());
-    return std::min({most - 1, jobs_.size(), pixels / kPixelsAThread});
+    return std::min({most - 1, fitting - 1, jobs_.size(), pixels / kPixelsAThread});
 }
 
 void ImageStore::run_jobs() {
