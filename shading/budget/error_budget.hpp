@@ -16,6 +16,7 @@ struct SceneFacts {
     std::vector<double> light_farthest_squared;  ///< upper bound on the squared distance to any surface, for each planned light
     std::vector<bool> drawn;                     ///< true for each planned material of which an object is made
     double vertex_color = 1.0;                   ///< the largest channel of all vertex colours
+    bool measure_rounding = true;                ///< of texels to 16 bits; false: the most that it may be is taken, at no cost
     double largest_uv = 0.0;                     ///< the largest texture coordinate; needed where texture coordinates are transformed
 };
 

@@ -76,7 +76,7 @@ Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, cons
     s.albedo = 0.0;                  // a coat scatters nothing
     s.diffuse = s.shiny = Factor{};  // the blue channel of its texture of roughness has no meaning
     if (const TexturePlan& texture = material.textures[TextureSlot::clearcoat]; texture.data != nullptr)
-        s.base_color = factor_of(most * filter_error(texture, 0, facts.largest_uv), most * least_value(texture, 0));
+        s.base_color = factor_of(most * filter_error(texture, 0, facts.largest_uv, facts.measure_rounding), most * least_value(texture, 0));
     return s;
 }
 
@@ -135,12 +135,13 @@ SheenSurface sheen_surface(const MaterialPlan& material, double normal_error, co
     out.exponent = 1.0 / (least * least);
     out.most = out.color * (1.0 + 0.5 * out.exponent) * 0.25;  // V2 N.L is at most 1 / 4
     if (const TexturePlan& texture = material.textures[TextureSlot::sheen_roughness]; texture.data != nullptr)
-        out.roughness = factor_of(static_cast<double>(sheen.roughness) * filter_error(texture, 3, facts.largest_uv), least);
+        out.roughness =
+            factor_of(static_cast<double>(sheen.roughness) * filter_error(texture, 3, facts.largest_uv, facts.measure_rounding), least);
     out.nodes = (kReflectionNodes - 1) * (out.roughness.absolute + 6.0 * cosine_error) + 1e-5;
     if (const TexturePlan& texture = material.textures[TextureSlot::sheen_color]; texture.data != nullptr) {
         double error = 0.0, least_color = 1.0;
         for (int c = 0; c < 3; ++c) {
-            error = std::max(error, filter_error(texture, c, facts.largest_uv));
+            error = std::max(error, filter_error(texture, c, facts.largest_uv, facts.measure_rounding));
             least_color = std::min(least_color, least_value(texture, c));
         }
         out.texture = factor_of(error, least_color);

@@ -140,9 +140,9 @@ double film_error(const MaterialPlan& material, double cosine_error, double f0_e
     const double most = std::max(film.thickness_nm, film.thickness_nm + film.thickness_range_nm);
     double thickness_error = 2e-7 * most, share_error = 0.0;
     if (const TexturePlan& texture = material.textures[TextureSlot::iridescence_thickness]; texture.data != nullptr)
-        thickness_error += std::fabs(double{film.thickness_range_nm}) * filter_error(texture, 1, facts.largest_uv);
+        thickness_error += std::fabs(double{film.thickness_range_nm}) * filter_error(texture, 1, facts.largest_uv, facts.measure_rounding);
     if (const TexturePlan& texture = material.textures[TextureSlot::iridescence]; texture.data != nullptr)
-        share_error += static_cast<double>(film.factor) * filter_error(texture, 0, facts.largest_uv);
+        share_error += static_cast<double>(film.factor) * filter_error(texture, 0, facts.largest_uv, facts.measure_rounding);
     if (std::min(film.thickness_nm, film.thickness_nm + film.thickness_range_nm) < 2.0f * kThinFilmNm)
         share_error += thickness_error / double{kThinFilmNm};
     // The waves' turns are rounded: 45 of them at most.
@@ -175,7 +175,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     const double dielectric = material.dielectric;
     const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
         double error = 0.0;
-        for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv));
+        for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv, facts.measure_rounding));
         return error;
     };
     // A factor times a texture's channels.

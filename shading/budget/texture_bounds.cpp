@@ -22,9 +22,15 @@ double coordinate_error(std::int32_t size, bool transform, const float (&row)[3]
     return error * size;
 }
 
+/// The most that rounding may be off by: each level rounds the mean of rounded texels once. MipRule::alpha keeps means in double.
+double most_storage_error(const TexturePlan& texture) {
+    const double levels = texture.level_count;
+    return 0.5 + (texture.source->rule() == MipRule::alpha ? 0.51 : 0.51 * levels);
+}
+
 }  // namespace
 
-double filter_error(const TexturePlan& texture, int c, double largest_uv) {
+double filter_error(const TexturePlan& texture, int c, double largest_uv, bool measured) {
     const TextureRange& texels = texture.source->range();
     const double step = texels.step[c] * kUnit, range = (texels.most[c] - texels.least[c]) * kUnit;
     // A filtered value changes by at most one step from a texel to the next, in each direction.
@@ -44,7 +50,7 @@ double filter_error(const TexturePlan& texture, int c, double largest_uv) {
         ellipse = 3e-5 * std::min(range, 9.0 * step) + 2e-5 * range + std::min((places + 2.0 * 16.0 * 1e-5) * step, range);
     }
     return std::min(shift * step, range) + level + ellipse + 10.0 * kRounding +
-           static_cast<double>(texture.source->storage_error()) * kUnit;
+           (measured ? static_cast<double>(texture.source->storage_error()) : most_storage_error(texture)) * kUnit;
 }
 
 double least_value(const TexturePlan& texture, int c) { return texture.source->range().least[c] * kUnit; }
