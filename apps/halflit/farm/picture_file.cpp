@@ -118,7 +118,10 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
                               error.codes)
                 : fmt::format("--max-error {}: nothing can be promised here; drawn as without it", error.budget));
     for (const auto& warnings : {job->warnings, rendered->warnings})
-        for (const std::string& warning : warnings) print_warning(warning);
+        for (const std::string& warning : warnings) {
+            const bool says_which = !one_of_many || warning.starts_with(job->source.name);
+            print_warning(says_which ? warning : job->source.name + ": " + warning);
+        }
 
     const Stopwatch encoding;
     auto bytes = encode_image(image, *format);
