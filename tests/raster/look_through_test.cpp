@@ -162,12 +162,73 @@ TEST_CASE("look through: instruction sets, threads, tiles, samples and regions d
             const Picture part = draw(scene, settings, kWidth, kHeight);
             bool same = true;
             for (int y = region.y; y < region.y + region.height; ++y)
-                for (int i = 4 * (y * kWidth + region.x); i < 4 * (y * kWidth + region.x + region.width); ++i)
-                    same &= part.codes[static_cast<std::size_t>(i)] == first.codes[static_cast<std::size_t>(i)];
+                for (int i = 4 * (y * kWidth + region.x); i < 4 * (y * kWidth + region.x + region.width); ++i) {
+                    const auto at = static_cast<std::size_t>(i);
+                    same &= part.codes[at] == first.codes[at] && part.linear[at] == first.linear[at];
+                }
             CHECK(same);
             settings.region = {};
         }
     }
+}
+
+TEST_CASE("look through: with accuracy reference the picture is that of the kernels, under an environment too", "[raster][blend]") {
+    Random random(94);
+    Scene scene = balls_before_panels(random);
+    std::vector<float> rgb;
+    for (int i = 0; i < 3 * 16 * 8; ++i) rgb.push_back(random.real32(0, 1));
+    for (const bool environment : {false, true}) {
+        if (environment) scene.environment = make_environment({16, 8, rgb}, {.keep_light = true}).value();
+        for (Material& material : scene.materials)
+            if (!material.unlit) material.roughness = std::max(material.roughness, 0.3f);
+        Settings settings;
+        const Picture exact = draw(scene, settings, 60, 60);
+        settings.shading.accuracy = Accuracy::reference;
+        const Picture reference = draw(scene, settings, 60, 60);
+        double worst = 0;
+        for (std::size_t i = 0; i < exact.linear.size(); ++i)
+            worst = std::max(worst, std::abs(double{exact.linear[i]} - double{reference.linear[i]}));
+        INFO((environment ? "environment" : "two colours"));
+        CHECK(worst < (environment ? 2e-3 : 1e-5));  // an environment's diffuse light is summed in bands
+    }
+}
+
+TEST_CASE("look through: a frame that was stopped leaves nothing behind, nor does one with glass", "[raster][blend][execution]") {
+    Random random(95);
+    const Scene scene = balls_before_panels(random);
+    const auto prepared = PreparedScene::make(scene).value();
+    Scene plain = scene;
+    plain.materials.resize(6), plain.meshes.resize(6), plain.instances.resize(6);
+    const auto prepared_plain = PreparedScene::make(plain).value();
+    constexpr int kSide = 100;
+    Settings settings;
+    settings.region = {30, 40, 20, 10};
+    const auto region_of = [&](Renderer& renderer, const PreparedScene& drawn, const Execution& execution) {
+        std::vector<std::uint8_t> codes(std::size_t{4} * 20 * 10 + 64, 77);
+        Target target{kSide, kSide, codes.data()};
+        target.region_alone = true;
+        const auto report = renderer.render(drawn, camera_flat(), settings, target, execution);
+        for (std::size_t i = 800; i < codes.size(); ++i) CHECK(codes[i] == 77);  // behind the region's memory
+        return report ? codes : std::vector<std::uint8_t>();
+    };
+    Renderer fresh, used;
+    const auto truth = region_of(fresh, prepared, {}), truth_plain = region_of(fresh, prepared_plain, {});
+    REQUIRE(!truth.empty());
+    for (int after = 0; after < 12; ++after) {
+        int asked = 0;
+        Execution stopped;
+        stopped.tile_size = 16, stopped.threads = 1;
+        stopped.cancelled = [&] { return asked++ >= after; };
+        region_of(used, prepared, stopped);
+        Execution whole;
+        whole.tile_size = 16;
+        CHECK(region_of(used, prepared, whole) == truth);
+        CHECK(region_of(used, prepared_plain, whole) == truth_plain);
+    }
+    Execution small;
+    small.memory_limit = 1'000;
+    CHECK(region_of(used, prepared, small).empty());
+    CHECK(region_of(used, prepared, {}) == truth);
 }
 
 TEST_CASE("look through: an error budget promises nothing", "[raster][blend][budget]") {
