@@ -28,7 +28,10 @@ bool for_each_layer(const TilePass& pass, int tile, TileScratch& scratch, const 
     int visited = 0;
     const auto chunks = pass.geometry.chunks();
     for (std::size_t c = 0; c < chunks.size(); ++c) {
-        for (const std::uint32_t record : pass.geometry.tile_list(c, tile, scratch.tile_list)) {
+        const auto list = pass.geometry.tile_list(c, tile, scratch.tile_list);
+        const bool of_one = pass.geometry.one_material(c) >= 0;  // then all are layers, or none
+        if (of_one && !list.empty() && pass.geometry.draw_of(chunks[c]->records[list[0]]).alpha_mode != AlphaMode::blend) continue;
+        for (const std::uint32_t record : list) {
             const Draw& draw = pass.geometry.draw_of(chunks[c]->records[record]);
             if (draw.alpha_mode != AlphaMode::blend) continue;
             if (pass.behind && pass.materials[static_cast<std::size_t>(draw.material)].transmission.looked_through) continue;
@@ -56,8 +59,12 @@ void blend(float* under, const Vec4f& over) {
 
 }  // namespace
 
+bool PictureTile::has_layers() const {
+    if (!pass_.view.geometry.has(AlphaMode::blend)) return false;
+    return !for_each_layer(pass_.view, tile_, scratch_, [](std::size_t, std::uint32_t) { return false; });
+}
+
 void PictureTile::blend_layers() {
-    if (!pass_.view.geometry.has(AlphaMode::blend)) return;
     if (!scratch_.layers) scratch_.layers = std::make_unique<LayerScratch>();
     blend_layers(rect_);
 }

@@ -54,6 +54,7 @@ private:
     void write_surface(FragmentList& list);       ///< the planes of surfaces; overwrites the scratch's block and list of lights
     void write_lights(const FragmentList& list);  ///< of the scratch's block
     // blend.cpp
+    [[nodiscard]] bool has_layers() const;
     void blend_layers();
     void blend_layers(const TileRect& part);
     [[nodiscard]] bool collect_layers(const TileRect& part);  ///< false: there are too many fragments
@@ -121,7 +122,7 @@ private:
     TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
     bool toned_;              ///< codes are written, through a tone curve
-    bool transmits_ = false;  ///< light passes through some layer of the picture
+    bool transmits_ = false;  ///< light passes through some layer of the tile
     bool has_shown_ = false;  ///< some fragment of the tile has a colour of the display, and there is a tone curve
     bool has_whole_ = false;  ///< pixels that one triangle covers are written at once: there are several samples, but no layers
     bool direct_ = true;      ///< one opaque sample per pixel: shaded colours go straight to the caller's memory

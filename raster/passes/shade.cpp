@@ -6,11 +6,10 @@
 namespace halflit::raster {
 
 TileCounts PictureTile::draw() {
-    const bool has_layers = pass_.view.geometry.has(AlphaMode::blend);
-    direct_ = samples_ == 1 && !has_layers;
-    transmits_ = plan_.transmits && has_layers;
-    const bool empty = pass_.view.geometry.tile_is_empty(tile_);
-    has_whole_ = samples_ > 1 && !has_layers && !empty && pass_.reference == nullptr;
+    const bool empty = pass_.view.geometry.tile_is_empty(tile_), layered = !empty && has_layers();
+    direct_ = samples_ == 1 && !layered;
+    transmits_ = plan_.transmits && layered;
+    has_whole_ = samples_ > 1 && !layered && !empty && pass_.reference == nullptr;
     if (empty) {
         fill_background();
     } else {
@@ -20,10 +19,8 @@ TileCounts PictureTile::draw() {
     if (pass_.output.has_planes()) write_planes(empty);
     if (empty) return counts_;
     shade_visible();
-    if (!direct_) {
-        blend_layers();
-        resolve();
-    }
+    if (layered) blend_layers();
+    if (!direct_) resolve();
     return counts_;
 }
 
