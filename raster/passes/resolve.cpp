@@ -190,8 +190,9 @@ void PictureTile::fill_samples() {
     fill_backing(0.0f);  // an environment is light, as a surface's is
     for (int y = 0; y < rect_.height; ++y)
         for (int x = 0; x < rect_.width; ++x) {
-            const Vec4f b = number_or_zero(plan_.background.at(rect_.x + x, rect_.y + y));
-            for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * (y * kTileStride + x), &b, sizeof b);
+            const int at = y * kTileStride + x;
+            const Vec4f b = background_at(at);
+            for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * at, &b, sizeof b);
         }
 }
 

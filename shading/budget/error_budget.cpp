@@ -159,7 +159,7 @@ bool may_keep(const ShadingPlan& plan, double budget_codes, const SceneFacts& fa
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         const MaterialPlan& material = plan.materials[i];
         if (!facts.drawn[i] || (material.stages & kStageShadowCatcher) != 0) continue;
-        if (material.transmission.looked_through) return false;
+        if (material.transmission.looked_through) return false;  // what lies behind is another picture, with errors of its own
         if (material.environment >= 0 && plan.environments[static_cast<std::size_t>(material.environment)].bound_codes > budget_codes)
             return false;
     }
@@ -183,7 +183,6 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
         rounding.push_back(rounding_codes(costs, material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
         const LayerCosts layers = layer_costs(costs, plan, material, s, light, reflections ? &*reflections : nullptr, exposure, facts);
         rounding.back() = std::min(rounding.back() + layers.codes, 255.0);
-        if (material.transmission.looked_through) rounding.back() = 255.0;  // what lies behind is another picture, with errors of its own
         fixed.push_back(rounding.back() + environment_codes(costs, plan, material, s, exposure));
         if (!facts.drawn[rounding.size() - 1] || (material.stages & kStageShadowCatcher) != 0) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());

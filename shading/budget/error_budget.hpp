@@ -25,8 +25,8 @@ struct SceneFacts {
 
 /// Chooses the cheapest polynomials, cutoff radii and thresholds whose bounds, with those of float32 and of the bands, stay below
 /// `budget_codes` for each material, after the tone curve of `costs`. Writes plan.error. Shadows and the visible surfaces of a pixel are
-/// taken as given. Light that is computed once a vertex or a triangle has no bound. Fits are looked up in `fits`, and added there where
-/// missing.
+/// taken as given, and so is that no material is looked through (may_keep). Light that is computed once a vertex or a triangle has no
+/// bound. Fits are looked up in `fits`, and added there where missing.
 void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
                         PowerFits& fits);
 

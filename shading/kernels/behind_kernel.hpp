@@ -73,13 +73,13 @@ struct LookedThrough {
     V3 light;
     F clear;
 };
-/// `thickness`: of the body below the surface, world units; 0: the ray leaves where it entered, unbent.
+/// Where the thickness is 0, the ray leaves where it entered, unbent.
 [[gnu::noinline]] static LookedThrough look_through(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
-                                                    const ShadeRows& rows, const shading::FragmentBlock& block, int lane, F thickness) {
+                                                    const ShadeRows& rows, const shading::FragmentBlock& block, int lane) {
     const shading::BehindPlan& behind = frame.behind;
     const F none(0.0f), one(1.0f), least(shading::kMinRoughness);
     const V3 normal = load3(rows.normal, lane), to_eye = load3(rows.to_eye, lane);
-    const F roughness = load(rows.roughness + lane);
+    const F roughness = load(rows.roughness + lane), thickness = load(rows.thickness + lane);
     const F blur = clamp((roughness - least) * F(1.0f / (1.0f - shading::kMinRoughness)), none, one) * F(material.transmission.blur);
     // Snell's law at the surface. A body is taken for a ball: the ray turns as much again where it leaves.
     const F ratio(material.transmission.inverse_ior), cosine = clamp(dot(normal, to_eye), none, one);

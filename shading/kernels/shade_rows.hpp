@@ -36,6 +36,7 @@ struct alignas(64) ShadeRows {
     Row3 along;                        ///< unit, in the plane of the normal: the direction of a brushed surface; with kStageAnisotropy
     Row alpha_along, alpha_across;     ///< widths of its facets; `roughness` is that of their geometric mean
     Row3 passed;                       ///< share of that light which is not absorbed
+    Row thickness;                     ///< of the body below the surface, world units; 0 at the back face of a double-sided one
 };
 HALFLIT_INLINE V3 load3(const ShadeRows::Row3& rows, int lane) {
     return {load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};

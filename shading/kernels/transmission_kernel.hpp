@@ -11,7 +11,7 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// Reads the textures: sets the rows `transmitted` and `passed`. Light is absorbed once in a body, where it enters at a front face.
+/// Reads the textures: sets the rows `transmitted`, `passed` and `thickness`. A body counts once, where light enters it at a front face.
 [[gnu::noinline]] static void fetch_transmission(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count,
                                                  ShadeRows& rows) {
     const shading::TransmissionPlan& plan = material.transmission;
@@ -21,19 +21,23 @@ inline namespace HALFLIT_ISA_NAMESPACE {
         if (material.textures[TextureSlot::transmission].data != nullptr)
             share = share * sample_texture(material.textures[TextureSlot::transmission], block, lane, taps).r;
         V3 passed = broadcast(plan.passed);
+        F thickness(plan.thickness);
         if (material.textures[TextureSlot::thickness].data != nullptr) {
-            const F thickness = vneg(sample_texture(material.textures[TextureSlot::thickness], block, lane, taps).g);
-            passed = {exp2_floored(kExp2Degree6, thickness * F(plan.absorbed[0])),
-                      exp2_floored(kExp2Degree6, thickness * F(plan.absorbed[1])),
-                      exp2_floored(kExp2Degree6, thickness * F(plan.absorbed[2]))};
+            const F depth = sample_texture(material.textures[TextureSlot::thickness], block, lane, taps).g, negative = vneg(depth);
+            passed = {exp2_floored(kExp2Degree6, negative * F(plan.absorbed[0])),
+                      exp2_floored(kExp2Degree6, negative * F(plan.absorbed[1])),
+                      exp2_floored(kExp2Degree6, negative * F(plan.absorbed[2]))};
+            thickness = thickness * depth;
         }
         if (material.double_sided) {
             const M front = row(block, shading::kFacing, lane) > F(0.0f);
             const F all(1.0f);
             passed = {sel(front, passed.x, all), sel(front, passed.y, all), sel(front, passed.z, all)};
+            thickness = sel(front, thickness, F(0.0f));
         }
         store(rows.transmitted + lane, share);
         store3(rows.passed, lane, passed);
+        store(rows.thickness + lane, thickness);
     }
 }
 
@@ -61,15 +65,6 @@ HALFLIT_INLINE F mirrored_back(const shading::MaterialPlan& material, const Shad
     return mad(vmax((F(1.0f) - load(rows.roughness + lane)) * weight, f0) - f0, fifth_power(away), f0);
 }
 
-/// Thickness of the body below the surface: none at a back face, where a ray leaves it.
-HALFLIT_INLINE F thickness_at(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int lane) {
-    TexelTaps taps;
-    F thickness(material.transmission.thickness);
-    if (material.textures[TextureSlot::thickness].data != nullptr)
-        thickness = thickness * sample_texture(material.textures[TextureSlot::thickness], block, lane, taps).g;
-    return material.double_sided ? sel(row(block, shading::kFacing, lane) > F(0.0f), thickness, F(0.0f)) : thickness;
-}
-
 /// Sets the block's alpha and what it keeps of the light behind it: 1 - a + a t (1 - S) (1 - metallic) base passed. Where the material
 /// blurs or bends that light, most of it is added to the block's colours instead.
 [[gnu::noinline]] static void keep_light_behind(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
@@ -88,7 +83,7 @@ HALFLIT_INLINE F thickness_at(const shading::MaterialPlan& material, const shadi
         if (seen && (has(material, kStageClearcoat) || has(material, kStageSheen))) share = share * load(rows.passed_layers + lane);
         V3 keep = (load3(rows.base, lane) * load3(rows.passed, lane)) * (alpha * share);
         if (through) {
-            const LookedThrough behind = look_through(frame, material, rows, block, lane, thickness_at(material, block, lane));
+            const LookedThrough behind = look_through(frame, material, rows, block, lane);
             const V3 light = (load3(rows.base, lane) * load3(rows.passed, lane)) * share * behind.light;
             store(block.red + lane, load(block.red + lane) + light.x);
             store(block.green + lane, load(block.green + lane) + light.y);

@@ -1,6 +1,5 @@
 // Glass that blurs what lies behind it by its roughness, and bends it by its thickness and index of refraction.
 #include "tests/raster/panes.hpp"
-#include "tests/support/isas.hpp"
 #include "tests/support/random.hpp"
 
 #include <algorithm>
@@ -146,17 +145,7 @@ TEST_CASE("look through: instruction sets, threads, tiles, samples and regions d
         settings.tone_curve = ToneCurve::neutral;
         settings.background_linear = {0.1f, 0.3f, 0.6f, 0.7f};
         const Picture first = draw(scene, settings, kWidth, kHeight);
-        for (const Isa isa : available_isas()) {
-            Execution execution;
-            execution.isa = isa;
-            INFO(isa_name(isa));
-            CHECK(draw(scene, settings, kWidth, kHeight, execution) == first);
-        }
-        for (const int tile : {16, 32, 64}) {
-            Execution execution;
-            execution.tile_size = tile, execution.threads = tile == 32 ? 3 : 1;
-            CHECK(draw(scene, settings, kWidth, kHeight, execution) == first);
-        }
+        check_sets_and_tiles(first, scene, settings, kWidth, kHeight);
         for (const Region region : {Region{0, 0, 20, 30}, Region{70, 50, 1, 1}, Region{33, 7, 90, 64}}) {
             settings.region = region;
             const Picture part = draw(scene, settings, kWidth, kHeight);

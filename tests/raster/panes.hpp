@@ -3,6 +3,7 @@
 
 #include "halflit/renderer.hpp"
 #include "tests/support/cameras.hpp"
+#include "tests/support/isas.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -24,6 +25,21 @@ inline Picture draw(const Scene& scene, const Settings& settings, int width, int
     const auto report = render(scene, camera_flat(), settings, {width, height, picture.codes.data(), picture.linear.data()}, execution);
     REQUIRE(report);
     return picture;
+}
+
+/// Checks that each instruction set, some sizes of tiles and numbers of threads draw this picture.
+inline void check_sets_and_tiles(const Picture& first, const Scene& scene, const Settings& settings, int width, int height) {
+    for (const Isa isa : available_isas()) {
+        Execution execution;
+        execution.isa = isa;
+        INFO(isa_name(isa));
+        CHECK(draw(scene, settings, width, height, execution) == first);
+    }
+    for (const int tile : {16, 32, 64}) {
+        Execution execution;
+        execution.tile_size = tile, execution.threads = tile == 32 ? 3 : 1;
+        CHECK(draw(scene, settings, width, height, execution) == first);
+    }
 }
 
 /// A quad across the picture at depth z, whose normal is turned from +z about y by `tilt`, while its corners are not.

@@ -1,6 +1,5 @@
 // Light that passes through surfaces: KHR_materials_transmission and the absorption of KHR_materials_volume, against float64 at each pixel.
 #include "tests/raster/panes.hpp"
-#include "tests/support/isas.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/catch.hpp"
@@ -132,17 +131,7 @@ TEST_CASE("transmission: instruction sets, threads, tiles, regions and the order
         settings.tone_curve = curve;
         settings.background_linear = {0.1f, 0.3f, 0.6f, 0.7f};
         const Picture first = draw(scene, settings, kWidth, kHeight);
-        for (const Isa isa : halflit::test::available_isas()) {
-            Execution execution;
-            execution.isa = isa;
-            INFO(isa_name(isa));
-            CHECK(draw(scene, settings, kWidth, kHeight, execution) == first);
-        }
-        for (const int tile : {16, 32, 64}) {
-            Execution execution;
-            execution.tile_size = tile, execution.threads = tile == 32 ? 3 : 1;
-            CHECK(draw(scene, settings, kWidth, kHeight, execution) == first);
-        }
+        check_sets_and_tiles(first, scene, settings, kWidth, kHeight);
         for (std::size_t i = scene.instances.size() - 1; i > 0; --i)
             std::swap(scene.instances[i], scene.instances[static_cast<std::size_t>(random.index(static_cast<int>(i) + 1))]);
         CHECK(draw(scene, settings, kWidth, kHeight) == first);
