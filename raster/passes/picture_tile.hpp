@@ -44,6 +44,8 @@ private:
     void shade(FragmentList& list);        ///< interpolates into the scratch's block, and writes its colour rows
     void shade(const FragmentList& list, const shading::LightList& lights, shading::FragmentBlock& block);  ///< of interpolated rows
     void count_nan_pixels(const FragmentList& list, const shading::FragmentBlock& block);
+    // join.cpp
+    void join(PixelFragments& row, int y_px) const;  ///< makes one fragment of those of a pixel that show one smooth surface
     // cells.cpp
     [[nodiscard]] bool has_cells(int material) const;
     void close_cell();  ///< keeps the lists of a cell of the picture, of materials with light in cells
@@ -51,7 +53,7 @@ private:
     void shade_cells(std::span<std::unique_ptr<FragmentList>> lists);  ///< of one material, at most kCellLanes
     // planes.cpp
     void write_planes(bool empty);                ///< what visibility knows, and 0 in the planes of surfaces; empty: no triangles
-    void write_surface(FragmentList& list);       ///< the planes of surfaces; overwrites the scratch's block and list of lights
+    void write_surface(FragmentList list);        ///< the planes of surfaces; overwrites the scratch's block and list of lights
     void write_lights(const FragmentList& list);  ///< of the scratch's block
     // blend.cpp
     [[nodiscard]] bool has_layers() const;
@@ -125,6 +127,7 @@ private:
     bool transmits_ = false;  ///< light passes through some layer of the tile
     bool has_shown_ = false;  ///< some fragment of the tile has a colour of the display, and there is a tone curve
     bool has_whole_ = false;  ///< pixels that one triangle covers are written at once: there are several samples, but no layers
+    bool joins_ = false;      ///< fragments of one smooth surface are joined
     bool direct_ = true;      ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 

@@ -49,7 +49,11 @@ void PictureTile::write_planes(bool empty) {
         }
 }
 
-void PictureTile::write_surface(FragmentList& list) {
+void PictureTile::write_surface(FragmentList list) {
+    // A joined fragment is of the largest triangle; the planes are of the first sample's.
+    for (int l = 0; l < list.count; ++l)
+        if ((list.samples[l] & 1) != 0)
+            list.id[l] = scratch_.buffers.triangle[0][(list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x)];
     const Output& output = pass_.output;
     const shading::MaterialPlan& material = pass_.surface->materials[static_cast<std::size_t>(list.material)];
     shading::FragmentBlock& block = scratch_.block;

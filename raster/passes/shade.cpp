@@ -9,6 +9,7 @@ TileCounts PictureTile::draw() {
     const bool empty = pass_.view.geometry.tile_is_empty(tile_), layered = !empty && has_layers();
     direct_ = samples_ == 1 && !layered;
     transmits_ = plan_.transmits && layered;
+    joins_ = plan_.options.rate == ShadingRate::pixel && pass_.view.geometry.shares_corners();
     has_whole_ = samples_ > 1 && !layered && !empty && pass_.reference == nullptr;
     if (empty) {
         fill_background();
@@ -28,6 +29,7 @@ void PictureTile::shade_visible() {
     FragmentQueue& queue = scratch_.queue;
     queue.begin(pass_.view.materials.size());
     std::fill(std::begin(scratch_.materials), std::end(scratch_.materials), TileScratch::MaterialOf{});
+    if (samples_ > 1 && joins_) scratch_.pairs = {};
     if (plan_.cells) {
         constexpr int kSide = shading::kCellSide;  // tiles begin at cells
         for (int y0 = 0; y0 < rect_.height; y0 += kSide)
@@ -51,6 +53,7 @@ void PictureTile::collect(int y, int x0, int x1) {
         const int at = y * kTileStride + x;
         pass_.view.raster.collect(scratch_.buffers, samples_, at, rect_.x + x, std::min(kPixelsARow, x1 - x), row);
         if (row.count == 0) continue;
+        if (row.count > row.pixels && joins_) join(row, rect_.y + y);
         if (all_written)
             counts_.pixels_visible += static_cast<std::uint64_t>(row.pixels);
         else

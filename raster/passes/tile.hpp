@@ -70,6 +70,18 @@ struct LayerScratch {
     [[nodiscard]] bool shows(std::size_t fragment) const { return !is_shown.empty() && is_shown[fragment] != 0; }
 };
 
+/// Pairs of triangles that pixels showed last, and whether they are one smooth surface.
+struct SurfacePairs {
+    enum class Kind : std::uint8_t { apart, one, near_corner };  ///< near_corner: one within a pixel of (x, y)
+    struct Pair {
+        std::uint32_t a = kNoTriangle, b = kNoTriangle;
+        Kind kind = Kind::apart;
+        std::int32_t x = 0, y = 0;  ///< as ScreenVertex
+    };
+    Pair pairs[256];
+    Pair& of(std::uint32_t a, std::uint32_t b) { return pairs[(a * 5 + b) % std::size(pairs)]; }
+};
+
 /// The working memory of one task.
 struct TileScratch {
     TileBuffers buffers{};
@@ -83,7 +95,8 @@ struct TileScratch {
         std::uint32_t id = kNoTriangle;
         int material = 0;
     };
-    MaterialOf materials[64];              ///< of triangles seen last
+    MaterialOf materials[64];  ///< of triangles seen last
+    SurfacePairs pairs;
     std::unique_ptr<CellScratch> cells;    ///< where light in cells is used
     std::unique_ptr<LayerScratch> layers;  ///< where there are transparent triangles
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.

@@ -1,0 +1,183 @@
+// Fragments of one pixel that show one smooth surface are shaded as one. Triangles that share corners share what is interpolated between
+// them, so that one of them, at the middle of the pixel, stands for the others.
+#include "raster/passes/picture_tile.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace halflit::raster {
+namespace {
+
+const ScreenVertex& vertex_of(const TriangleSource& source, std::uint32_t vertex) {
+    return vertex & kClipVertex ? source.clip_vertices[vertex & ~kClipVertex] : source.vertices[vertex];
+}
+
+/// Decides which triangles that a pixel shows are parts of one smooth surface there.
+class Surfaces {
+public:
+    Surfaces(const ViewGeometry& geometry, const VertexRecords& records, SurfacePairs& known)
+        : geometry_(geometry), records_(records), known_(known) {}
+
+    [[nodiscard]] bool are_one(std::uint32_t a, std::uint32_t b, int x_px, int y_px) const {
+        // Neighbouring pixels show the same pairs again.
+        SurfacePairs::Pair& pair = known_.of(a, b);
+        if (pair.a != a || pair.b != b) pair = find(a, b);
+        if (pair.kind != SurfacePairs::Kind::near_corner) return pair.kind == SurfacePairs::Kind::one;
+        constexpr int kPixel = 256;  // ScreenVertex has eight bits after the point
+        const auto dx = static_cast<unsigned>(pair.x - (x_px - 1) * kPixel), dy = static_cast<unsigned>(pair.y - (y_px - 1) * kPixel);
+        return dx <= 2u * kPixel && dy <= 2u * kPixel;
+    }
+
+private:
+    /// Two triangles are one surface if they have an edge of their mesh in common, or one corner that is not farther than a pixel, and are
+    /// large or have normals that are alike.
+    [[nodiscard]] SurfacePairs::Pair find(std::uint32_t a, std::uint32_t b) const {
+        SurfacePairs::Pair pair{a, b, SurfacePairs::Kind::apart, 0, 0};
+        const TriangleRecord &of_a = geometry_.record(a), &of_b = geometry_.record(b);
+        if (!geometry_.draw_of(of_a).shares_corners || of_a.draw_and_back != of_b.draw_and_back) return pair;
+        const auto& [b0, b1, b2] = of_b.vertex;
+        unsigned common = 0;  // bit k: corner k of a is one of b's
+        for (unsigned k = 0; k < 3; ++k) {
+            const std::uint32_t v = of_a.vertex[k];
+            common |= (static_cast<unsigned>(v == b0) | static_cast<unsigned>(v == b1) | static_cast<unsigned>(v == b2)) << k;
+        }
+        if (common == 0) return pair;
+        const std::size_t chunk_a = geometry_.chunk_of(a), chunk_b = geometry_.chunk_of(b);
+        if (chunk_a != chunk_b)  // corners that clipping made are numbered by chunk
+            for (unsigned k = 0; k < 3; ++k)
+                if (of_a.vertex[k] & kClipVertex) common &= ~(1u << k);
+        if (common == 0) return pair;
+        const Triangle first(*this, of_a, chunk_a), second(*this, of_b, chunk_b);
+        if (!(first.is_large() && second.is_large()) && !are_alike(first, second, common)) return pair;
+        pair.kind = SurfacePairs::Kind::one;
+        if (common == 1 || common == 2 || common == 4) {
+            const ScreenVertex& at = *first.screen[common >> 1];
+            pair.kind = SurfacePairs::Kind::near_corner, pair.x = at.x, pair.y = at.y;
+        }
+        return pair;
+    }
+
+    struct Triangle {
+        const ScreenVertex* screen[3];
+        const float* record[3];
+        int floats;  ///< of a record
+
+        Triangle(const Surfaces& of, const TriangleRecord& triangle, std::size_t chunk)
+            : floats(of.records_.stride(triangle.draw_and_back >> 1)) {
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t v = triangle.vertex[k];
+                screen[k] = &vertex_of(of.geometry_.source(chunk), v);
+                record[k] = v & kClipVertex
+                                ? of.records_.clip_records()[chunk] + static_cast<std::int64_t>(v & ~kClipVertex) * shading::kVertexFloats
+                                : of.records_.draws()[triangle.draw_and_back >> 1].of(v, floats);
+            }
+        }
+        /// Covers so many pixels that what is interpolated hardly changes within one.
+        [[nodiscard]] bool is_large() const {
+            constexpr std::int64_t kPixel = 256, kTwiceTheArea = 2 * 32 * kPixel * kPixel;
+            const std::int64_t ux = screen[1]->x - screen[0]->x, uy = screen[1]->y - screen[0]->y, vx = screen[2]->x - screen[0]->x,
+                               vy = screen[2]->y - screen[0]->y;
+            return ux * vy - uy * vx >= kTwiceTheArea;
+        }
+    };
+
+    /// The normals of all corners are within 25.7 degrees of those of the common ones. Where they are not, each triangle's own light is
+    /// needed: of 90, 45, 26, 14 and 8 degrees it is the widest that adds no more than one part in a hundred to the error of a dense model.
+    /// common: bit k: corner k of a is one.
+    [[nodiscard]] static bool are_alike(const Triangle& a, const Triangle& b, unsigned common) {
+        constexpr float kLeastCosineSquared = 0.8125f;
+        if (a.floats <= shading::kNormalX + 2) return true;  // no light, no normals
+        const auto product = [](const float* m, const float* n) { return (m[0] * n[0] + m[1] * n[1]) + m[2] * n[2]; };
+        bool alike = true;
+        for (unsigned k = 0; k < 3; ++k) {
+            if ((common >> k & 1u) == 0) continue;
+            const float* const n = a.record[k] + shading::kNormalX;
+            const float length = product(n, n);
+            for (const Triangle* triangle : {&a, &b})
+                for (const float* record : triangle->record) {
+                    const float* const m = record + shading::kNormalX;
+                    const float cosine = product(n, m);
+                    alike &= (cosine > 0.0f) & (cosine * cosine >= kLeastCosineSquared * (length * product(m, m)));
+                }
+        }
+        return alike;
+    }
+
+    const ViewGeometry& geometry_;
+    const VertexRecords& records_;
+    SurfacePairs& known_;
+};
+
+/// Samples of the larger of two sets, the first of equal ones.
+bool has_more(std::int32_t samples, std::int32_t than) {
+    const auto count = [](std::int32_t set) {  // std::popcount is a call where the instruction is not at hand
+        auto n = static_cast<unsigned>(set);
+        n = (n & 0x5555u) + (n >> 1 & 0x5555u);
+        n = (n & 0x3333u) + (n >> 2 & 0x3333u);
+        n = (n & 0x0f0fu) + (n >> 4 & 0x0f0fu);
+        return (n & 0xffu) + (n >> 8);
+    };
+    return count(samples) > count(than);
+}
+
+/// Joins the fragments of one pixel, at most kMaxSamples: the first of each surface gets all of its samples, and the others none. True if
+/// there are such.
+bool join_pixel(const Surfaces& surfaces, std::uint32_t* id, std::int32_t* samples, int count, int x_px, int y_px) {
+    if (count == 2) {
+        if (!surfaces.are_one(id[0], id[1], x_px, y_px)) return false;
+        if (has_more(samples[1], samples[0])) id[0] = id[1];
+        samples[0] |= std::exchange(samples[1], 0);
+        return true;
+    }
+    int surface[kMaxSamples];  // the first fragment of the surface that a fragment shows
+    for (int i = 0; i < count; ++i) surface[i] = i;
+    bool any = false;
+    for (int i = 1; i < count; ++i)
+        for (int j = 0; j < i; ++j) {
+            if (surface[i] == surface[j] || !surfaces.are_one(id[i], id[j], x_px, y_px)) continue;
+            std::replace(surface, surface + count, std::max(surface[i], surface[j]), std::min(surface[i], surface[j]));
+            any = true;
+        }
+    if (!any) return false;
+    for (int i = 0; i < count; ++i) {
+        if (surface[i] != i) continue;
+        std::int32_t most = samples[i];  // the triangle of the most samples is shaded
+        for (int j = i + 1; j < count; ++j) {
+            if (surface[j] != i) continue;
+            if (has_more(samples[j], most)) most = samples[j], id[i] = id[j];
+            samples[i] |= std::exchange(samples[j], 0);
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+void PictureTile::join(PixelFragments& row, int y_px) const {
+    const Surfaces surfaces(pass_.view.geometry, pass_.view.records, scratch_.pairs);
+    // Pixels of several fragments. Loops over all fragments have no branches, as none of them could be foretold.
+    int begin[kPixelsARow + 1], pixels = 0;
+    row.x_px[row.count] = row.x_px[row.count - 1] + 1;
+    for (int i = 0, before = row.x_px[0] - 1; i < row.count; ++i) {
+        begin[pixels] = i;
+        const int x_px = row.x_px[i];
+        pixels += static_cast<int>(x_px != before) & static_cast<int>(row.x_px[i + 1] == x_px);
+        before = x_px;
+    }
+    bool any = false;
+    for (int p = 0; p < pixels; ++p) {
+        const int first = begin[p], x_px = row.x_px[first];
+        int end = first + 2;
+        while (row.x_px[end] == x_px) ++end;
+        any |= join_pixel(surfaces, row.id + first, row.samples + first, end - first, x_px, y_px);
+    }
+    if (!any) return;
+    int kept = 0;
+    for (int i = 0; i < row.count; ++i) {
+        row.id[kept] = row.id[i], row.x_px[kept] = row.x_px[i], row.samples[kept] = row.samples[i];
+        kept += static_cast<int>(row.samples[i] != 0);
+    }
+    row.count = kept;
+}
+
+}  // namespace halflit::raster
