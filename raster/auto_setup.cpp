@@ -84,14 +84,6 @@ float environment_exposure(const Environment& environment) {
     return static_cast<float>(0.5 / level);
 }
 
-/// Two texels for a pixel of the longer side, where a map shows what the picture shows. Larger maps only cost time and memory.
-int shadow_size_for(int width, int height) {
-    constexpr int kLeast = 256;
-    int size = kLeast;
-    while (size < Settings{}.shadow_size && size / 2 < std::max(width, height)) size *= 2;
-    return size;
-}
-
 bool gives_light(const Light& light) { return !(light.color_linear == Vec3f{}); }
 
 bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && ambient.ground_linear == Vec3f{}; }
@@ -205,7 +197,6 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
         setup.camera = frame_scene(scene, bounds, aspect, setup.view);
     }
     setup.settings = usual_settings();
-    setup.settings.shadow_size = shadow_size_for(width, height);
     setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
     const float exposure = complete(setup.light, bounds, setup.camera, options);

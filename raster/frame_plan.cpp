@@ -186,13 +186,13 @@ Settings beside_sky(const Lighting& light, Settings settings) {
 
 /// Lights for sky shadows, with their maps, which are added to `shadows`. Light from all around reaches all of the scene, so its maps are
 /// not cut to what is seen.
-Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Lighting& light, const Settings& settings, ShadowViews& shadows) {
+Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Lighting& light, const Settings& settings,
+                                        const ShadowSizes& sizes, ShadowViews& shadows) {
     if (!has_sky_shadows(light, settings)) return std::vector<LightPlan>{};
     std::vector<LightPlan> lights = shading::plan_lights(shading::sky_lights(settings.sky_shadows, light.environment.get(), light.ambient));
     Settings of_sky = settings;
-    of_sky.shadow_size = std::min(settings.shadow_size, kSkyMapSize);
     of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.texel_count * sizeof(float));
-    auto views = plan_shadow_views(lights, scene, nullptr, of_sky);
+    auto views = plan_shadow_views(lights, scene, nullptr, of_sky, {std::min(sizes.most, kSkyMapSize)});
     if (!views) return tl::unexpected<Error>(views.error());
     const std::vector<std::int32_t> maps = views->map_of_light;
     const auto before = static_cast<std::int32_t>(append(shadows, std::move(*views)));
@@ -213,9 +213,10 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     plan.options = options;
     plan.picture = picture_view(camera, width, height, settings.region, tile_size, settings);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
-    auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, beside_sky(light, settings));
+    const ShadowSizes sizes = shadow_sizes(settings, width, height);
+    auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, beside_sky(light, settings), sizes);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
-    auto sky = plan_sky(prepared, light, settings, *shadows);
+    auto sky = plan_sky(prepared, light, settings, sizes, *shadows);
     if (!sky) return tl::unexpected<Error>(sky.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
     for (const ShadowView& face : shadows->views) finite_views &= !face.sees_casters || all_finite(face.view.clip_from_world);

@@ -4,7 +4,6 @@
 #include "halflit/settings.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -36,8 +35,8 @@ inline std::string number_text(double x) {
 struct SettingValues {
     enum class Kind : std::uint8_t { number, whole, named } kind = Kind::number;
     double low = 0, high = 0;
-    bool open = false;  ///< low itself is left out
-    bool powers_of_two = false;
+    bool open = false;            ///< low itself is left out
+    int step = 0;                 ///< only multiples of it; 0: all
     bool zero_too = false;        ///< 0 besides the range
     std::string_view zero{};      ///< a word for that 0
     std::span<const int> list{};  ///< of whole numbers; empty: all in the range
@@ -82,8 +81,8 @@ struct SettingValues {
 constexpr SettingValues between(double low, double high) { return {.low = low, .high = high}; }
 constexpr SettingValues above_zero_to(double high) { return {.low = 0, .high = high, .open = true}; }
 constexpr SettingValues whole(double low, double high) { return {.kind = SettingValues::Kind::whole, .low = low, .high = high}; }
-constexpr SettingValues power_of_two(int low, int high) {
-    return {.kind = SettingValues::Kind::whole, .low = static_cast<double>(low), .high = static_cast<double>(high), .powers_of_two = true};
+constexpr SettingValues multiple_of(int step, int low, int high) {
+    return {.kind = SettingValues::Kind::whole, .low = static_cast<double>(low), .high = static_cast<double>(high), .step = step};
 }
 constexpr SettingValues one_of(std::span<const int> list) {
     return {.kind = SettingValues::Kind::whole,
@@ -102,7 +101,7 @@ inline bool SettingValues::contains(double value) const {
     if (kind == Kind::number) return true;
     constexpr double kAllWhole = 0x1p53;
     if (value < kAllWhole && value != static_cast<double>(static_cast<std::int64_t>(value))) return false;
-    if (powers_of_two && !std::has_single_bit(static_cast<std::uint64_t>(value))) return false;
+    if (step > 0 && static_cast<std::int64_t>(value) % step != 0) return false;
     return list.empty() || std::find(list.begin(), list.end(), static_cast<int>(value)) != list.end();
 }
 
@@ -117,8 +116,13 @@ inline std::string SettingValues::expected() const {
         add_all(names, [](std::string_view name) { return name; });
     else if (!list.empty())
         add_all(list, [](int value) { return std::to_string(value); });
-    else if (powers_of_two)
-        text.append("a power of two from ").append(number_text(low)).append(" to ").append(number_text(high));
+    else if (step > 0)
+        text.append("a multiple of ")
+            .append(std::to_string(step))
+            .append(" from ")
+            .append(number_text(low))
+            .append(" to ")
+            .append(number_text(high));
     else
         text.append(open                  ? "a number above "
                     : kind == Kind::whole ? "a whole number from "

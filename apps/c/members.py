@@ -153,7 +153,6 @@ def python_settings():
         enumeration = re.search(r"named\((\w+)\)", values)
         truth = values.startswith("truth")
         usual = {"true": "True", "false": "False", "reference": "reference"}.get(usual, usual)
-        usual = "chosen" if name == "shadow_size" else usual
         doc = doc.replace("soft-split", "soft_split")
         if enumeration:
             doc += ": " + ", ".join(f'"{x}"' for x in names_of(enumeration.group(1)))

@@ -17,6 +17,7 @@ constexpr std::array kRates{ShadingRate::pixel, ShadingRate::gouraud, ShadingRat
 constexpr std::array kTextures{TextureDetail::full, TextureDetail::bilinear, TextureDetail::nearest};
 constexpr std::array kBudgets{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
 constexpr std::array kShadowSizes{2048, 1024, 512};
+constexpr int kAutoShadowSize = 1024;  ///< the auto one has less than twice as many
 
 std::vector<int> orders(const TradeSpace& space) {
     std::vector<int> list{0};
@@ -41,7 +42,7 @@ std::vector<Shadows> shadows(const TradeSpace& space) {
         if (mode > space.shadows) continue;
         if (mode != space.shadows) list.push_back({mode, space.shadow_size});
         for (const int size : kShadowSizes)
-            if (size < space.shadow_size) list.push_back({mode, size});
+            if (size < (space.shadow_size > 0 ? space.shadow_size : kAutoShadowSize)) list.push_back({mode, size});
     }
     if (space.shadows != ShadowMode::off) list.push_back({ShadowMode::off, space.shadow_size});
     return list;

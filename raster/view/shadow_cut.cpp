@@ -174,6 +174,7 @@ std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth
     const Hexahedron box = enlarged(scene);
     // A pixel at the rim may be shaded at its centre, half a pixel outside of what is seen; a whole one is added.
     const double wide = 1.001 + 1.0 / picture.viewport.half_width, high = 1.001 + 1.0 / picture.viewport.half_height;
+    const double pixel = 1.0 / std::max(picture.viewport.half_width * length(x.normal), picture.viewport.half_height * length(y.normal));
     Hexahedron view;
     if (depth.orthographic) {
         const double margin = kDepthMargin;
@@ -182,6 +183,7 @@ std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth
                                {z.normal, dual[2], -margin - z.offset, 1.0 + margin - z.offset}});
         SeenVolume seen;
         seen.sides = common_surface(view, box);
+        seen.pixel = pixel;
         return seen;
     }
     const Range range = depths_in_view(z, depth, box);
@@ -198,8 +200,7 @@ std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth
     }
     view.side[4] = {z.normal, z.offset - range.low};
     view.side[5] = {z.normal * -1.0, range.high - z.offset};
-    const double pixel = 1.0 / std::max(picture.viewport.half_width * length(x.normal), picture.viewport.half_height * length(y.normal));
-    SeenVolume seen{common_surface(view, box), true, z, range, pixel, {}, {}};
+    SeenVolume seen{common_surface(view, box), pixel, true, z, range, {}, {}};
     std::copy(std::begin(view.side), std::end(view.side), std::begin(seen.view));
     std::copy(view.corner, view.corner + 4, std::begin(seen.near_corner));
     return seen;
@@ -244,6 +245,8 @@ std::optional<int> ladder_rung(const FittedView& view, int size, const SeenVolum
     if (!needed) return std::nullopt;
     return narrowest(view, size, *needed);
 }
+
+double ladder_width(const FittedView& view, int rung) { return 2.0 * view.half * share(rung); }
 
 double ladder_texel(const FittedView& view, int rung, int size) { return texel_of({0, 0, view.half * share(rung)}, size); }
 

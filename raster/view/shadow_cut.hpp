@@ -16,11 +16,11 @@ namespace halflit::raster {
 /// the camera's view and the scene's bounds, both a little enlarged.
 struct SeenVolume {
     std::vector<Polygon> sides;
+    double pixel = 0;  ///< height or width of a pixel, whichever is less, world units; with perspective at depth 1
     // Of pictures with perspective:
     bool perspective = false;
     HalfSpace axis;             ///< its value at a point is the depth, the distance along the camera's axis
     Range depth;                ///< depths in view; the near plane's is the least
-    double pixel = 0;           ///< height or width of a pixel at depth 1, whichever is less; world units
     HalfSpace view[6];          ///< the camera's view
     Vec3d near_corner[4] = {};  ///< corners of the view at the least depth
 };
@@ -48,7 +48,8 @@ enum class MapUse { whole, cut, none };  ///< none: nothing that is seen can lie
 /// width. Nothing: nothing that is seen can lie in a shadow.
 [[nodiscard]] std::optional<int> ladder_rung(const FittedView& view, int size, const SeenVolume& seen);
 
-/// Width of a texel of that window.
+/// Width of that window, and of its texels.
+[[nodiscard]] double ladder_width(const FittedView& view, int rung);
 [[nodiscard]] double ladder_texel(const FittedView& view, int rung, int size);
 
 }  // namespace halflit::raster

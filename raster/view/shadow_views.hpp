@@ -35,14 +35,27 @@ struct ShadowViews {
     std::string warning;  ///< says that maps were made smaller; empty: they were not
 };
 
+/// Sides of maps are multiples of it.
+inline constexpr int kShadowSizeStep = 64;
+/// Sides of a frame's maps, texels.
+struct ShadowSizes {
+    int most = 2048;
+    double texel_px = 0;  ///< width of a texel in the picture where that is enough, pixels; 0: all maps have `most`
+};
+inline constexpr int kLeastShadowSize = 256;  ///< of maps sized by pixels
+[[nodiscard]] ShadowSizes shadow_sizes(const Settings& settings, int width_px, int height_px);
+[[nodiscard]] constexpr int halved_shadow_size(int size) {
+    return size < 2 * kShadowSizeStep ? kShadowSizeStep : size / 2 / kShadowSizeStep * kShadowSizeStep;
+}
+
 /// Plans a map for every light that reaches the scene's bounds and that something casts a shadow of, fitted to the casters: directional
 /// maps, and those of point lights that see all of them within 127 degrees. Spots see no more than their cone. Other points, and spots
 /// beyond 75 degrees, get six faces of half the size, unless one cut view shows all that the picture needs. All are halved in size until
 /// they fit Settings::shadow_memory_limit. seen: the volume that the picture shows. Maps cover no more than it, casters whose shadows
 /// cannot fall into it are left out, and directional lights get finer maps near the camera where these gain enough (shadow_cascades.hpp).
-/// Null: maps cover the whole scene.
+/// Null: maps cover the whole scene, and have ShadowSizes::most.
 [[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const PreparedData& scene,
-                                                    const SeenVolume* seen, const Settings& settings);
+                                                    const SeenVolume* seen, const Settings& settings, const ShadowSizes& sizes);
 
 /// Appends the maps of one list of views to another one. Returns the number of maps before.
 std::size_t append(ShadowViews& to, ShadowViews&& more);

@@ -72,13 +72,13 @@ namespace {
 
 /// Maps for `n` points of each light, one light after the other.
 Result<ShadowViews> plan_points(const std::vector<LightPlan>& lights, int n, const PreparedData& scene, const SeenVolume* seen,
-                                const Settings& settings) {
+                                const Settings& settings, const ShadowSizes& sizes) {
     std::vector<LightPlan> points;
     for (const LightPlan& light : lights) {
         const std::vector<LightPlan> of_light = light_points(light, n);
         points.insert(points.end(), of_light.begin(), of_light.end());
     }
-    auto views = plan_shadow_views(points, scene, seen, settings);
+    auto views = plan_shadow_views(points, scene, seen, settings, sizes);
     if (views) views->map_of_light.resize(points.size(), -1);  // without shadows there are none
     return views;
 }
@@ -86,21 +86,21 @@ Result<ShadowViews> plan_points(const std::vector<LightPlan>& lights, int n, con
 }  // namespace
 
 Result<ShadowViews> plan_light_shadows(std::vector<LightPlan>& lights, const PreparedData& scene, const SeenVolume* seen,
-                                       const Settings& settings) {
+                                       const Settings& settings, const ShadowSizes& sizes) {
     const auto has_size = [](const LightPlan& light) { return light.shadow_radius > 0.0f; };
-    if (std::none_of(lights.begin(), lights.end(), has_size)) return plan_shadow_views(lights, scene, seen, settings);
+    if (std::none_of(lights.begin(), lights.end(), has_size)) return plan_shadow_views(lights, scene, seen, settings, sizes);
     std::vector<LightPlan> sharp, soft;
     for (const LightPlan& light : lights) (has_size(light) ? soft : sharp).push_back(light);
     Settings of_sharp = settings;
     if (!sharp.empty()) of_sharp.shadow_memory_limit /= 2;
-    auto out = plan_shadow_views(sharp, scene, seen, of_sharp);
+    auto out = plan_shadow_views(sharp, scene, seen, of_sharp, sizes);
     if (!out) return out;
     Settings of_soft = settings;
     of_soft.shadow_memory_limit -= std::min(of_soft.shadow_memory_limit, out->texel_count * sizeof(float));
-    of_soft.shadow_size = std::max(64, settings.shadow_size / 2);
+    const ShadowSizes half{halved_shadow_size(sizes.most), 2.0 * sizes.texel_px};
     int n = settings.soft_shadow_maps;
-    auto views = plan_points(soft, n, scene, seen, of_soft);
-    while (!views && views.error().code == ErrorCode::limit && n > 1) views = plan_points(soft, n /= 2, scene, seen, of_soft);
+    auto views = plan_points(soft, n, scene, seen, of_soft, half);
+    while (!views && views.error().code == ErrorCode::limit && n > 1) views = plan_points(soft, n /= 2, scene, seen, of_soft, half);
     if (!views) return views;
     if (n < settings.soft_shadow_maps)
         views->warning = "soft shadows by " + std::to_string(n) + " maps a light instead of " + std::to_string(settings.soft_shadow_maps) +

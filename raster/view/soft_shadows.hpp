@@ -13,6 +13,6 @@ namespace halflit::raster {
 /// them, chained by ShadowMapPlan::next, and fewer points where the maps do not fit the limit of memory, of which the maps of lights
 /// without size leave a half. Sets LightPlan::shadow_points.
 [[nodiscard]] Result<ShadowViews> plan_light_shadows(std::vector<shading::LightPlan>& lights, const PreparedData& scene,
-                                                     const SeenVolume* seen, const Settings& settings);
+                                                     const SeenVolume* seen, const Settings& settings, const ShadowSizes& sizes);
 
 }  // namespace halflit::raster

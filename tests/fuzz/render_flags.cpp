@@ -46,7 +46,7 @@ void read_setting_values(Input& input, Settings& settings) {
         } else {
             // Whole numbers near the least, which cost least: of names all.
             const auto step = static_cast<double>(input.below(4));
-            const double value = values.powers_of_two ? values.low * static_cast<double>(1 << static_cast<int>(step)) : values.low + step;
+            const double value = values.low + step * std::max(1, values.step);
             setting.set(settings, std::min(value, values.high));
         }
     }

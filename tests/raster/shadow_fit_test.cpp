@@ -1,6 +1,7 @@
 // Shadow maps that fit: the shadow of a box against rays, for lamps far away and wide floors, and planes that face their light.
 #include "sh/vec3d.hpp"
 #include "tests/raster/box_shadow.hpp"
+#include "tests/raster/shadow_city.hpp"
 #include "tests/support/random.hpp"
 
 #include <algorithm>
@@ -105,4 +106,42 @@ TEST_CASE("shadow fit: a plane that faces its light is not darkened at any angle
 
 TEST_CASE("shadow fit: a plane that faces its light is not darkened in any of 1,000 directions", "[raster][shadow][deep]") {
     check_lit_planes(1000);
+}
+
+TEST_CASE("shadow fit: without a size of its own a map has three texels for two pixels of what is seen", "[raster][shadow]") {
+    for (const LightType type : {LightType::directional, LightType::spot, LightType::point})
+        for (const bool orthographic : {false, true})
+            for (const int height : {64, 200, 1000}) {
+                ShadowSetup setup(Lobe::sloan(0), ShadowMode::hard);
+                setup.settings.shadow_size = 0;
+                setup.add(make_sphere(1, 24, 12));
+                Light& light = setup.scene.lights[0];
+                light.type = type;
+                light.direction_ws = {0, -1, 0};
+                light.position_ws = {0, type == LightType::point ? 0.0f : 10.0f, 0};
+                setup.camera = camera_at({0, 0, 20}, {0, 0, 0});
+                setup.camera.orthographic = orthographic, setup.camera.half_height = 2, setup.camera.half_width = 4;
+                setup.camera.far_z = 40;
+                const auto plan_at = [&](Region region) {
+                    setup.settings.region = region;
+                    const raster::FramePlan plan = plan_of(setup, 2 * height, height);
+                    REQUIRE_FALSE(plan.shading.shadow_maps.empty());
+                    return plan.shading.shadow_maps.back();
+                };
+                const shading::ShadowMapPlan map = plan_at({});
+                INFO("light " << static_cast<int>(type) << (orthographic ? ", orthographic, " : ", ") << height << ": " << map.size);
+                CHECK(map.size % 32 == 0);
+                const int side = type == LightType::point ? 2 * map.size : map.size;
+                CHECK(side >= 256);
+                CHECK(side <= std::min(4 * std::max(height, 64), 2048));
+                const double pixel = orthographic ? 4.0 / height : 40 * std::tan(0.5 * double{setup.camera.fov_y_rad}) / height;
+                const double texel_px = double{map.texel_size} * (type == LightType::spot ? 10 : 1) / pixel;
+                if (side > 256 && side < std::min(4 * height, 2048)) {
+                    CHECK(texel_px < 0.70);
+                    CHECK(texel_px > 0.45);
+                }
+                CHECK(plan_at({3, 5, 20, 10}).size == map.size);
+                setup.settings.shadow_size = 640;
+                CHECK(plan_at({}).size == (type == LightType::point ? 320 : 640));
+            }
 }

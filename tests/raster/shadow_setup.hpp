@@ -32,6 +32,7 @@ struct ShadowSetup {
         scene.lights[0].direction_ws = {-1, 0, 0};
         settings.shading.specular = SpecularModel::none;
         settings.shadows = mode;
+        settings.shadow_size = 2048;
         camera = camera_flat(static_cast<float>(kHeight) / kWidth);
         camera.half_width = 1.0f;
     }

@@ -247,7 +247,7 @@ TEST_CASE("soft shadows: a light has fewer points where their maps do not fit th
         Settings settings = matt();
         settings.shadow_memory_limit = bytes;
         auto lights = shading::plan_lights(scene.lights);
-        const auto views = raster::plan_light_shadows(lights, prepared->data(), nullptr, settings);
+        const auto views = raster::plan_light_shadows(lights, prepared->data(), nullptr, settings, {});
         REQUIRE(views);
         CHECK(lights[0].shadow_points == points);
         CHECK(views->maps.size() == static_cast<std::size_t>(points));
@@ -291,7 +291,7 @@ TEST_CASE("soft shadows: their number is checked, and each point that sees caste
     const auto prepared = PreparedScene::make(scene);
     REQUIRE(prepared);
     auto lights = shading::plan_lights(scene.lights);
-    const auto views = raster::plan_light_shadows(lights, prepared->data(), nullptr, matt());
+    const auto views = raster::plan_light_shadows(lights, prepared->data(), nullptr, matt(), {});
     REQUIRE(views);
     REQUIRE(views->map_of_light.size() == 3);
     CHECK(views->maps.size() == 33);

@@ -124,7 +124,6 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     const auto is_given = [&](std::string_view name) {
         return std::find(options.given_settings.begin(), options.given_settings.end(), name) != options.given_settings.end();
     };
-    if (!is_given("shadow_size")) job.settings.shadow_size = choice->settings.shadow_size;
     if (!is_given("point_size")) job.settings.point_size = choice->settings.point_size;
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return {};

@@ -77,7 +77,8 @@ class PictureOptions(ViewOptions, total=False):
         shading_rate: how often light is evaluated: "flat", "gouraud", "pixel" (pixel)
         environment_bands: of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance (0)
         shadows: effect of shadows on wrapped light; off: no shadow maps are drawn: "off", "hard", "soft_split" (soft_split)
-        shadow_size: texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half (chosen)
+        shadow_size: Texels on a side of a shadow map, a multiple of 64 from 64 to 4096; a cube's faces have half. 0: three for two
+            pixels of what is seen, from 256 to twice the picture's longer side, at most 2048. (0)
         soft_shadow_maps: points of a light that has a shadow_radius, each with maps of half that side: 4 to 64 (16)
         shadow_fade: soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
             (0)

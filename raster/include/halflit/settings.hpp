@@ -34,7 +34,9 @@ struct Settings {
     float line_width = 1.5f;    ///< width of lines, likewise
     /// effect of shadows on wrapped light; off: no shadow maps are drawn
     ShadowMode shadows = ShadowMode::soft_split;
-    int shadow_size = 2048;  ///< texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half
+    /// Texels on a side of a shadow map, a multiple of 64 from 64 to 4096; a cube's faces have half. 0: three for two pixels of
+    /// what is seen, from 256 to twice the picture's longer side, at most 2048.
+    int shadow_size = 0;
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
     /// points of a light that has a shadow_radius, each with maps of half that side: 4 to 64
     int soft_shadow_maps = 16;

@@ -562,7 +562,8 @@ typedef struct halflit_settings {
     int32_t environment_bands;
     /// HALFLIT_SHADOWS: effect of shadows on wrapped light; off: no shadow maps are drawn (soft-split)
     int32_t shadows;
-    /// texels on a side of a shadow map, a power of two from 64 to 4096; a cube's faces have half (2048)
+    /// Texels on a side of a shadow map, a multiple of 64 from 64 to 4096; a cube's faces have half. 0: three for two pixels of
+    /// what is seen, from 256 to twice the picture's longer side, at most 2048. (0)
     int32_t shadow_size;
     /// points of a light that has a shadow_radius, each with maps of half that side: 4 to 64 (16)
     int32_t soft_shadow_maps;
