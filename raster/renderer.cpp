@@ -8,6 +8,7 @@
 #include "raster/passes/picture_tile.hpp"
 #include "raster/passes/shading_rate.hpp"
 #include "raster/passes/shadow_maps.hpp"
+#include "raster/quality.hpp"
 
 #include <mutex>
 #include <optional>
@@ -136,7 +137,8 @@ struct Renderer::Impl {
     }
 
     Result<RenderReport> render(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings,
-                                const Target& target, const Execution& execution, Isa isa, RenderReport report) {
+                                const Target& target, const Execution& execution, Isa isa, RenderReport report,
+                                const PixelMask* only = nullptr) {
         Stopwatch watch;
         executor.configure(execution);
         plan_memory.stop = &executor.stop();
@@ -172,7 +174,8 @@ struct Renderer::Impl {
                                output,
                                by_reference ? &reference : nullptr,
                                output.has_surface() ? &surface_pass : nullptr,
-                               plan.written};
+                               plan.written,
+                               only};
         TileCounts behind_counts;
         if (plan.looks_through) behind_counts = draw_behind(pass, execution);
         TileCounts tiles = draw_tiles(pass, execution, plan.looks_through ? 0.5 : 0.0);
@@ -212,6 +215,121 @@ struct Renderer::Impl {
     }
 };
 
+/// Measures what settings keep a share, by probes of one view.
+class Renderer::Measuring {
+public:
+    Measuring(Impl& cheaper, const PreparedData& scene, const Lighting& light, const Camera& camera, const ShareBudget& budget, int width,
+              int height, Execution execution, Isa isa)
+        : cheaper_(cheaper),
+          scene_(scene),
+          light_(light),
+          camera_(camera),
+          budget_(budget),
+          execution_(std::move(execution)),
+          isa_(isa),
+          width_(width),
+          height_(height),
+          probes_(choose_probes(width, height, camera)),
+          mask_(width, height) {
+        execution_.on_tile = {}, execution_.progress = {};
+        for (const std::uint32_t at : probes_)
+            mask_.add(static_cast<int>(at % static_cast<std::uint32_t>(width)), static_cast<int>(at / static_cast<std::uint32_t>(width)));
+    }
+
+    /// known: of other views; it is tried first. Null: there are none.
+    Result<MeasuredShare> measure(Settings best, const MeasuredShare* known) {
+        best.region = {};
+        if (auto ok = draw(full_, best, wanted_); !ok) return tl::unexpected<Error>(ok.error());
+        if (full_.plan.looks_through) return result(best, 100.0, 0);  // what is behind glass is drawn as a whole: no probe is cheap
+        if (known != nullptr) {
+            const Settings settings = with_share(best, *known);
+            if (settings == best) return result(best, 100.0, 0);
+            const auto kept = keeps(settings);
+            if (!kept) return tl::unexpected<Error>(kept.error());
+            if (*kept) return result(settings, percent_, count_);
+        }
+        const std::vector<CheaperPart> parts = cheaper_parts(best, facts());
+        std::vector<std::vector<bool>> outside;
+        for (const CheaperPart& part : parts) {
+            if (auto ok = compare(with_part(best, part)); !ok) return tl::unexpected<Error>(ok.error());
+            outside.push_back(outside_);
+        }
+        int tried = 0;
+        for (const Combination& one : combinations(best, parts, outside)) {
+            if (shown(one.outside) < budget_.percent) continue;
+            if (tried++ == kMostTried) break;
+            const auto kept = keeps(one.settings);
+            if (!kept) return tl::unexpected<Error>(kept.error());
+            if (*kept) return result(one.settings, percent_, count_);
+        }
+        return result(best, 100.0, 0);
+    }
+
+private:
+    static constexpr int kMostTried = 3;
+    /// Of a claim that is one of so many.
+    static constexpr double kDoubt = 0.05 / (kMostTried + 1);
+
+    [[nodiscard]] double shown(int outside) const { return share_shown(static_cast<int>(probes_.size()), outside, kDoubt); }
+    [[nodiscard]] MeasuredShare result(const Settings& settings, double percent, int outside) const {
+        return {budget_,
+                percent,
+                static_cast<int>(probes_.size()),
+                outside,
+                settings.samples,
+                settings.shading.anisotropy,
+                settings.shadow_size};
+    }
+    [[nodiscard]] QualityFacts facts() const {
+        QualityFacts facts;
+        for (const shading::MaterialPlan& material : full_.plan.shading.materials)
+            facts.textures |= (material.stages & kStageGradients) != 0;
+        for (const shading::ShadowMapPlan& map : full_.plan.shading.shadow_maps)
+            facts.shadow_size = std::max(facts.shadow_size, map.kind == shading::ShadowMapPlan::Kind::cube ? 2 * map.size : map.size);
+        return facts;
+    }
+    /// Codes of the probes.
+    Result<void> draw(Impl& by, const Settings& settings, std::vector<std::uint32_t>& codes) {
+        std::uint32_t* const picture = picture_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+        const Target target{.width = width_, .height = height_, .pixels = reinterpret_cast<std::uint8_t*>(picture)};
+        auto report = by.render(scene_, light_, camera_, settings, target, execution_, isa_, {}, &mask_);
+        if (!report) return tl::unexpected<Error>(report.error());
+        codes.clear();
+        for (const std::uint32_t at : probes_) codes.push_back(picture[at]);
+        return {};
+    }
+    /// Sets the probes that the settings take outside.
+    Result<void> compare(const Settings& settings) {
+        std::vector<std::uint32_t> codes;
+        if (auto ok = draw(cheaper_, settings, codes); !ok) return ok;
+        outside_.resize(codes.size());
+        for (std::size_t i = 0; i < codes.size(); ++i) outside_[i] = differs(codes[i], wanted_[i], budget_.codes);
+        return {};
+    }
+    Result<bool> keeps(const Settings& settings) {
+        if (auto ok = compare(settings); !ok) return tl::unexpected<Error>(ok.error());
+        count_ = static_cast<int>(std::count(outside_.begin(), outside_.end(), true));
+        percent_ = shown(count_);
+        return percent_ >= budget_.percent;
+    }
+
+    Impl full_, &cheaper_;
+    const PreparedData& scene_;
+    const Lighting& light_;
+    const Camera& camera_;
+    const ShareBudget& budget_;
+    Execution execution_;
+    Isa isa_;
+    int width_, height_;
+    std::vector<std::uint32_t> probes_;
+    PixelMask mask_;
+    RawBuffer<std::uint32_t> picture_;
+    std::vector<std::uint32_t> wanted_;
+    std::vector<bool> outside_;
+    double percent_ = 0;
+    int count_ = 0;
+};
+
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
@@ -239,6 +357,39 @@ Result<RenderReport> timed(const Execution& execution, const Body& body) {
 }
 
 }  // namespace
+
+Result<MeasuredShare> Renderer::measure(const PreparedScene& scene, const Lighting& light, const Camera& camera, const Settings& settings,
+                                        const ShareBudget& budget, int width, int height, const MeasuredShare* known,
+                                        const Execution& execution) {
+    return guarded("measuring", execution, [&]() -> Result<MeasuredShare> {
+        const auto isa = check_execution(execution);
+        if (!isa) return tl::unexpected<Error>(isa.error());
+        if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
+        if (!(budget.codes >= 0.0 && budget.codes <= 255.0))
+            return fail(ErrorCode::usage, "codes: " + std::to_string(budget.codes) + ", expected a number from 0 to 255");
+        if (!(budget.percent > 0.0 && budget.percent < 100.0))
+            return fail(ErrorCode::usage, "percent: " + std::to_string(budget.percent) + ", expected a number above 0 and below 100");
+        if (settings.shading.accuracy != Accuracy::exact || settings.shading.max_error_codes > 0.0)
+            return fail(ErrorCode::usage, "measure: expected accuracy exact, and no error budget that is proven");
+        return Measuring(*impl_, scene.data(), light, camera, budget, width, height, execution, *isa).measure(settings, known);
+    });
+}
+
+Settings with_share(Settings settings, const MeasuredShare& measured) {
+    settings.samples = measured.samples;
+    settings.shading.anisotropy = measured.anisotropy;
+    settings.shadow_size = measured.shadow_size;
+    return settings;
+}
+
+MeasuredShare more_careful(const MeasuredShare& a, const MeasuredShare& b) {
+    MeasuredShare both = a.percent <= b.percent ? a : b;
+    both.samples = std::max(a.samples, b.samples);
+    both.anisotropy = std::max(a.anisotropy, b.anisotropy);
+    // 0 is the size in full quality.
+    both.shadow_size = a.shadow_size == 0 || b.shadow_size == 0 ? 0 : std::max(a.shadow_size, b.shadow_size);
+    return both;
+}
 
 Result<RenderReport> Renderer::render(const PreparedScene& scene, const Lighting& light, const Camera& camera, const Settings& settings,
                                       const Target& target, const Execution& execution) {

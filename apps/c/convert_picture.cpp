@@ -29,6 +29,7 @@ HALFLIT_ENDS_WITH(halflit_picture_request, reserved);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
+HALFLIT_ENDS_WITH(halflit_measured, reserved);
 #undef HALFLIT_ENDS_WITH
 
 // The constants are the numbers of the enumerations.

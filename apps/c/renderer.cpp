@@ -162,6 +162,48 @@ int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, c
                           });
 }
 
+int32_t halflit_measured_init(halflit_measured* measured, size_t size) {
+    return guarded(__func__, {{measured, "measured"}}, [&] {
+        halflit_measured usual{};
+        usual.codes = kFastQuality.codes, usual.asked_percent = kFastQuality.percent;
+        return write_struct(usual, size, measured, "halflit_measured");
+    });
+}
+
+int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting,
+                        const halflit_camera* given_camera, const halflit_settings* given_settings, int32_t width, int32_t height,
+                        halflit_measured* measured) {
+    return using_renderer(__func__, renderer, {{scene, "scene"}, {given_camera, "camera"}, {measured, "measured"}}, [&]() -> Result<void> {
+        const auto from = camera(given_camera);
+        if (!from) return tl::unexpected<Error>(from.error());
+        const auto how = settings(given_settings);
+        if (!how) return tl::unexpected<Error>(how.error());
+        const auto given = read_struct(measured, halflit_measured{}, "halflit_measured");
+        if (!given) return tl::unexpected<Error>(given.error());
+        const MeasuredShare known{{given->codes, given->asked_percent},
+                                  given->percent,
+                                  given->probes,
+                                  given->outside,
+                                  given->samples,
+                                  given->anisotropy,
+                                  given->shadow_size};
+        const bool is_known = known.probes > 0;
+        if (is_known)
+            if (auto ok = check_settings(with_share(*how, known), width, height); !ok) return ok;
+        const DrawingScene drawing(*scene);
+        if (auto ok = scene->prepare(renderer->execution); !ok) return ok;
+        std::optional<Lighting> moved;
+        auto found = renderer->renderer.measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->drawn(*from), *how,
+                                                known.asked, width, height, is_known ? &known : nullptr, renderer->execution);
+        if (!found) return tl::unexpected<Error>(found.error());
+        if (is_known) *found = more_careful(known, *found);
+        halflit_measured out = *given;
+        out.percent = found->percent, out.probes = found->probes, out.outside = found->outside;
+        out.samples = found->samples, out.anisotropy = found->anisotropy, out.shadow_size = found->shadow_size;
+        return write_struct(out, measured->size, measured, "halflit_measured");
+    });
+}
+
 int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text) {
     return guarded(__func__, {{renderer, "renderer"}, {text, "text"}}, [&]() -> Result<void> {
         const auto at = check_index(index, renderer->warnings.size(), "warning", "the frame");

@@ -104,7 +104,7 @@ bool PictureTile::collect_layers(const TileRect& part) {
         for (int y = box.y0; y <= box.y1; ++y) {
             for (int x = box.x0; x <= box.x1; ++x) {
                 const int at = y * kTileStride + x;
-                if (coverage[at] == 0) continue;
+                if (coverage[at] == 0 || (pass_.only != nullptr && !pass_.only->has(rect_.x + x, rect_.y + y))) continue;
                 layers.fragments.push_back({source.id_base + record, static_cast<std::uint16_t>(at), coverage[at]});
                 for (int s = 0; s < samples_; ++s) layers.z.push_back(layers.depths.depth[s][at]);
             }

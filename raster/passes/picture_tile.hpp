@@ -6,6 +6,7 @@
 #include "raster/passes/output.hpp"
 #include "raster/passes/reference_shading.hpp"
 #include "raster/passes/tile.hpp"
+#include "raster/quality.hpp"
 
 namespace halflit::raster {
 
@@ -17,6 +18,7 @@ struct PicturePass {
     const ReferenceShading* reference;  ///< shades instead of the kernels; null: the kernels shade
     const TilePass* surface;            ///< reads what the planes of surfaces need; null: there are none
     Region written;                     ///< pixels of the output; the picture's region may be larger
+    const PixelMask* only = nullptr;    ///< if there is one, other pixels are not shaded, and what is written there has no meaning
 };
 
 class PictureTile {
@@ -36,6 +38,7 @@ public:
 private:
     // shade.cpp
     void shade_visible();
+    void keep_only(PixelFragments& row, int y_px) const;
     void collect(int y, int x0, int x1);  ///< sorts the fragments of a row of pixels into lists
     void sort(const PixelFragments& row, int y_px);
     [[nodiscard]] int material_of(std::uint32_t id);

@@ -6,6 +6,11 @@
 namespace halflit::raster {
 
 TileCounts PictureTile::draw() {
+    if (pass_.only != nullptr) {
+        bool any = false;
+        for (int y = 0; y < rect_.height && !any; ++y) any = pass_.only->has_any(rect_.x, rect_.y + y, rect_.width);
+        if (!any) return counts_;
+    }
     const bool empty = pass_.view.geometry.tile_is_empty(tile_), layered = !empty && has_layers();
     direct_ = samples_ == 1 && !layered;
     transmits_ = plan_.transmits && layered;
@@ -50,8 +55,10 @@ void PictureTile::collect(int y, int x0, int x1) {
     PixelFragments& row = scratch_.fragments;
     const bool all_written = written_.width == rect_.width && written_.height == rect_.height;
     for (int x = x0; x < x1; x += kPixelsARow) {
-        const int at = y * kTileStride + x;
-        pass_.view.raster.collect(scratch_.buffers, samples_, at, rect_.x + x, std::min(kPixelsARow, x1 - x), row);
+        const int at = y * kTileStride + x, count = std::min(kPixelsARow, x1 - x);
+        if (pass_.only != nullptr && !pass_.only->has_any(rect_.x + x, rect_.y + y, count)) continue;
+        pass_.view.raster.collect(scratch_.buffers, samples_, at, rect_.x + x, count, row);
+        if (pass_.only != nullptr) keep_only(row, rect_.y + y);
         if (row.count == 0) continue;
         if (row.count > row.pixels && joins_) join(row, rect_.y + y);
         if (all_written)
@@ -61,6 +68,17 @@ void PictureTile::collect(int y, int x0, int x1) {
                 counts_.pixels_visible += (i == 0 || row.x_px[i] != row.x_px[i - 1]) && is_written(row.x_px[i], rect_.y + y) ? 1 : 0;
         sort(row, rect_.y + y);
     }
+}
+
+void PictureTile::keep_only(PixelFragments& row, int y_px) const {
+    int kept = 0;
+    for (int i = 0; i < row.count; ++i) {
+        row.id[kept] = row.id[i], row.x_px[kept] = row.x_px[i], row.samples[kept] = row.samples[i];
+        kept += pass_.only->has(row.x_px[i], y_px) ? 1 : 0;
+    }
+    row.count = kept;
+    row.pixels = 0;
+    for (int i = 0; i < kept; ++i) row.pixels += i == 0 || row.x_px[i] != row.x_px[i - 1] ? 1 : 0;
 }
 
 void PictureTile::sort(const PixelFragments& row, int y_px) {

@@ -395,6 +395,39 @@ TEST_CASE("palette: a picture of 256 colours keeps them, and one of more has eac
     }
 }
 
+TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn", "[cli][film]") {
+    const TemporaryFolder folder;
+    const auto frames = [&](const std::string& name, const Strings& more) {
+        Strings flags{"render", "demo", "--size", "160x120", "--turntable", "9", "--quality", "draft", "-v", "-o", folder.file(name)};
+        flags.insert(flags.end(), more.begin(), more.end());
+        Outcome outcome = run(flags);
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return outcome.err;
+    };
+    const std::string said = frames("all_{}.bmp", {});
+    (void)frames("some_{}.bmp", {"--frames", "4-7:3"});
+    for (const std::string n : {"4", "7"}) CHECK(contents(folder.file("all_" + n + ".bmp")) == contents(folder.file("some_" + n + ".bmp")));
+    // The settings that are told draw the same.
+    const std::size_t at = said.find("probes: ");
+    REQUIRE(at != std::string::npos);
+    std::istringstream told(said.substr(at + 8, said.find('\n', at) - at - 8));
+    Strings flags{"render", "demo", "--size", "160x120", "--turntable", "9", "--frames", "7", "-o", folder.file("told_{}.bmp")};
+    for (std::string word; told >> word;) flags.push_back(word);
+    REQUIRE(flags.size() == 16);
+    const Outcome outcome = run(flags);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(contents(folder.file("told_7.bmp")) == contents(folder.file("all_7.bmp")));
+    // One picture alone has full quality.
+    for (const Strings& more : {Strings{}, Strings{"--quality", "draft"}}) {
+        Strings one{"render", "demo", "--size", "64", "-o", folder.file(more.empty() ? "a.bmp" : "b.bmp")};
+        one.insert(one.end(), more.begin(), more.end());
+        REQUIRE(run(one).code == 0);
+    }
+    CHECK(contents(folder.file("a.bmp")) == contents(folder.file("b.bmp")));
+}
+
 TEST_CASE("frames: wrong flags are told with what was expected", "[cli][film]") {
     const TemporaryFolder folder;
     const auto message = [&](const Strings& flags) {

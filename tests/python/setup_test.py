@@ -15,6 +15,23 @@ def cube():
     return scene
 
 
+class Measured(unittest.TestCase):
+    def test_settings_that_keep_a_share(self):
+        scene, found = cube(), None
+        scene.add_light("directional", direction=(-1, -2, -1))
+        for azimuth in (0, 50):
+            found = scene.measure(200, "draft", found, azimuth=azimuth)
+        self.assertGreaterEqual(found["percent"], 95)
+        self.assertEqual(set(found["settings"]), {"samples", "anisotropy", "shadow_size"})
+        full, cheaper = scene.render(200, azimuth=50), scene.render(200, azimuth=50, **found["settings"])
+        near = (np.abs(np.asarray(full, int) - np.asarray(cheaper, int)).max(axis=2) <= 8).mean()
+        self.assertGreaterEqual(100 * near, 95)
+        self.assertEqual(scene.measure(200, (8, 95), azimuth=0), scene.measure(200, "draft", azimuth=0))
+        for wrong in ("best", (2, 100), (2,)):
+            with self.assertRaises((halflit.Error, ValueError)):
+                scene.measure(64, wrong)
+
+
 class Kept(unittest.TestCase):
     def test_a_light_that_is_refused_changes_no_pixel(self):
         scene = cube()

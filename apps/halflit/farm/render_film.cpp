@@ -19,11 +19,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <future>
 #include <memory>
 #include <new>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -64,6 +66,7 @@ public:
         for (const std::string& choice : job->choices) print_detail(choice);
         if (options_.film.frames && options_.film.animates() && job->animation() == nullptr && options_.film.turntable == 0)
             print_warning(job->source.name + ": no animation moves it; all frames are the same");
+        if (const auto measured = measure(); !measured) return measured;
         if (const auto made = make_writer(); !made) return made;
         if (const auto drawn = draw_all(); !drawn) return drawn;
         return finish();
@@ -182,6 +185,39 @@ private:
         return job_->prepared->update(changes, job_->timed_execution());
     }
 
+    /// Frames of one turn, or of the whole animation, of which --frames may be a part.
+    [[nodiscard]] std::int64_t frames_of_all() const {
+        const FilmOptions& film = options_.film;
+        if (film.turntable > 0) return film.turntable;
+        const AnimationInfo* const animation = job_->animation();
+        if (animation == nullptr || !film.animates()) return 1;
+        constexpr double kMost = 1e6;
+        return static_cast<std::int64_t>(std::clamp(animation->end_s / film.time_s(1), 1.0, kMost));
+    }
+
+    /// Measures once what quality the film needs, by three of its frames, whichever are drawn. Each frame then depends on its number alone.
+    Result<void> measure() {
+        if (!options_.film.quality) return {};
+        constexpr std::int64_t kFrames = 3;
+        const std::int64_t all = frames_of_all();
+        for (std::int64_t k = 0; k < std::min(all, kFrames); ++k) {
+            Camera camera = job_->camera;
+            if (const auto moved = move_to(k * all / kFrames, camera); !moved) return moved;
+            const auto one = renderer_.measure(*job_->prepared, job_->light, camera, job_->settings, *options_.film.quality, job_->width,
+                                               job_->height, k == 0 ? nullptr : &measured_, job_->timed_execution());
+            if (!one) return fail(one.error().code, fmt::format("{}: {}", job_->source.name, one.error().message));
+            measured_ = k == 0 ? *one : more_careful(measured_, *one);
+        }
+        job_->settings = with_share(job_->settings, measured_);
+        const std::string size = measured_.shadow_size == 0 ? "auto" : std::to_string(measured_.shadow_size);
+        print_detail(fmt::format(
+            "quality: {:.2f} % of the pixels within {} codes, by {} probes: {}", measured_.percent, measured_.asked.codes, measured_.probes,
+            measured_.percent == 100.0
+                ? "full quality"
+                : fmt::format("--samples {} --anisotropy {} --shadow-size {}", measured_.samples, measured_.anisotropy, size)));
+        return {};
+    }
+
     Result<Drawn> draw(std::size_t i) {
         const Stopwatch preparing;
         const std::int64_t number = range_.number(i);
@@ -289,8 +325,26 @@ private:
     std::unique_ptr<film::FilmWriter> writer_;
     std::array<Image, 2> pictures_;  ///< one is drawn while the other is encoded
     Renderer renderer_;
+    MeasuredShare measured_;  ///< of the film
     std::string report_;
 };
+
+/// --share and --max-error become a quality.
+Result<void> settle_quality(PictureOptions& options) {
+    FilmOptions& film = options.film;
+    double& codes = options.settings.shading.max_error_codes;
+    if (film.share) {
+        if (film.quality) return fail(ErrorCode::usage, "--share: cannot be combined with --quality");
+        if (!(codes > 0.0)) return fail(ErrorCode::usage, "--share: expected together with --max-error");
+        film.quality = ShareBudget{codes, *film.share};
+        codes = 0.0;
+    }
+    if (!film.quality) return {};
+    if (codes > 0.0) return fail(ErrorCode::usage, "--quality: cannot be combined with --max-error, but --share can");
+    if (options.settings.shading.accuracy != Accuracy::exact)
+        return fail(ErrorCode::usage, "--quality: cannot be combined with --accuracy reference");
+    return {};
+}
 
 }  // namespace
 
@@ -298,6 +352,7 @@ Result<int> render_film(PictureOptions options, bool skip_existing) {
     if (const auto checked = check_film_options(options.film, options.output); !checked) return tl::unexpected(checked.error());
     if (!options.aovs.empty()) return fail(ErrorCode::usage, "--aov: cannot be combined with --frames or --turntable");
     if (options.blank_check) return fail(ErrorCode::usage, "--blank-check: cannot be combined with --frames or --turntable");
+    if (const auto settled = settle_quality(options); !settled) return tl::unexpected(settled.error());
     io::begin_file_set();
     if (const auto checked = check_report(options.report); !checked) return tl::unexpected(checked.error());
     if (!options.report.empty())

@@ -145,7 +145,14 @@ Command render_table(RenderLine& o) {
            parsed(o.film.fps, parse_fps)},
           {"--turntable", "N", "Turn the camera around the scene, once in N frames, and the studio with it (default frames: 0 to N - 1)",
            read_int(o.film.turntable, 1, 100000)},
-          {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.film.dither)}}});
+          {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.film.dither)},
+          {"--quality", "draft|fast|full",
+           "draft: at least 95 % of the pixels are within 8 codes of full quality; fast: 99 % within 2. The cheapest settings that keep "
+           "this "
+           "are found by probes in three frames, so one picture alone has full quality, which costs no more (default full)",
+           parsed(o.film.quality, parse_quality)},
+          {"--share", "PERCENT", "With --max-error: so many of the pixels are within it, measured as --quality is instead of proven",
+           parsed(o.film.share, parse_percent)}}});
     groups.push_back(
         {"Output",
          {{"-o,--output", "FILE",

@@ -3,6 +3,7 @@
 
 #include "apps/film/film_writer.hpp"
 #include "halflit/error.hpp"
+#include "halflit/report.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,9 +32,11 @@ struct FrameRate {
 struct FilmOptions {
     std::optional<FrameRange> frames;
     std::optional<FrameRate> fps;
-    int turntable = 0;       ///< frames of one turn; 0: the view stands still
-    bool time_held = false;  ///< --time was given: the pose of that time in all frames
-    bool dither = false;     ///< GIF
+    int turntable = 0;                   ///< frames of one turn; 0: the view stands still
+    bool time_held = false;              ///< --time was given: the pose of that time in all frames
+    bool dither = false;                 ///< GIF
+    std::optional<ShareBudget> quality;  ///< --quality other than full
+    std::optional<double> share;         ///< --share, percent: with --max-error, instead of quality
 
     /// Frames are asked for.
     [[nodiscard]] bool wanted() const { return frames || turntable > 0; }
@@ -50,6 +53,10 @@ struct FilmOptions {
     /// Time that each frame is shown: that of all the frames which the range steps over.
     [[nodiscard]] film::FrameTime frame_time() const { return {range().step * rate().seconds, rate().frames}; }
 };
+
+/// "full", "fast" or "draft"; and a number above 0 and below 100, with or without %.
+[[nodiscard]] Result<std::optional<ShareBudget>> parse_quality(std::string_view text);
+[[nodiscard]] Result<double> parse_percent(std::string_view text);
 
 /// Refuses flags that contradict each other. output: of -o.
 [[nodiscard]] Result<void> check_film_options(const FilmOptions& options, const std::string& output);

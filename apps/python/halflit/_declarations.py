@@ -94,6 +94,10 @@ STRUCTS = {
         triangles_not_finite; uint64_t pixels_visible; uint64_t fragments_shaded; uint64_t nan_pixels; char isa[16]; int32_t
         error_within; int32_t threads; int32_t warnings; int32_t reserved;
 """,
+    "halflit_measured": """
+        size_t size; double codes, asked_percent; double percent; int32_t probes, outside; int32_t samples, anisotropy,
+        shadow_size; int32_t reserved;
+""",
 }
 CONSTANTS = {
     "HALFLIT_OK": 0,
@@ -237,6 +241,8 @@ void halflit_renderer_destroy(halflit_renderer* renderer);
 int32_t halflit_target_init(halflit_target* target, size_t size);
 int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target, halflit_report* report);
 int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
+int32_t halflit_measured_init(halflit_measured* measured, size_t size);
+int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera, const halflit_settings* settings, int32_t width, int32_t height, halflit_measured* measured);
 uint64_t halflit_pixel_hash(const void* bytes, size_t count);
 int32_t halflit_write_image(const char* path, const halflit_target* target);
 int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);

@@ -5,13 +5,17 @@ import ctypes
 from typing import Any, Dict
 
 from . import _c
-from ._errors import warn
+from ._errors import UsageError, warn
 from ._execution import Execution
 from ._options import apply_settings, check_names, settings_dict
 from ._picture import Picture
 from ._setup import Setup, choose, drawn_camera, exposure_of, kept
 from ._target import Target
 from ._values import real
+
+
+_QUALITIES = {"fast": (2, 99), "draft": (8, 95)}
+_MEASURED = ("samples", "anisotropy", "shadow_size")
 
 
 def draw(scene, size, options: dict) -> Picture:
@@ -31,6 +35,29 @@ def draw(scene, size, options: dict) -> Picture:
             scene._told.add(line)
             warn(line)
     return picture
+
+
+def measure(scene, size, quality, known, options: dict) -> Dict[str, Any]:
+    """What halflit_measure finds for the view. The scene is locked."""
+    check_names(options, function="measure")
+    setup = (choose if options.get("setup") is None else kept)(scene, size, options)
+    settings = settings_of(scene, setup, options)
+    budget = _QUALITIES.get(quality, quality) if isinstance(quality, str) else quality
+    if isinstance(budget, str):
+        raise UsageError(f"quality: expected fast, draft, or codes and percent, found {budget!r}")
+    measured = _c.make("measured")
+    measured.codes, measured.asked_percent = (real(x, "quality") for x in budget)
+    for name in () if known is None else ("percent", "probes", "outside"):
+        setattr(measured, name, known[name])
+    for name in () if known is None else _MEASURED:
+        setattr(measured, name, known["settings"][name])
+    camera, execution = drawn_camera(scene._world, setup), Execution(options, scene._lock)
+    with execution.calls():
+        structs = map(ctypes.byref, (camera._c, settings))
+        _c.call("measure", renderer_of(scene, execution), scene._handle, setup._lighting, *structs, *setup.size, ctypes.byref(measured))
+    found = {name: getattr(measured, name) for name in ("percent", "probes", "outside")}
+    found["settings"] = {name: getattr(measured, name) for name in _MEASURED}
+    return found
 
 
 def settings_of(scene, setup: Setup, options: dict):

@@ -46,14 +46,28 @@ public:
 
     /// @}
 
+    /// Finds the cheapest settings that keep a budget in this view, by probes: pixels that a hash chooses are drawn in the settings' own
+    /// quality and in cheaper ones. That takes about as long as a frame, so it is for sequences: measure some of the views, each
+    /// with what is known from those before, join the results by more_careful, and draw with with_share. The whole picture counts, whatever
+    /// the region. Fails (usage) for settings with an error budget, or an accuracy other than exact.
+    [[nodiscard]] HALFLIT_API Result<MeasuredShare> measure(const PreparedScene& scene, const Lighting& light, const Camera& camera,
+                                                            const Settings& settings, const ShareBudget& budget, int width, int height,
+                                                            const MeasuredShare* known = nullptr, const Execution& execution = {});
+
     /// Drops the plan, light distances, shadow maps and geometry of earlier frames. Keeps their memory, and results that depend on an
     /// environment or a material alone. The next frame does the same work as after a change of the whole scene's geometry.
     HALFLIT_API void forget_frames();
 
 private:
     struct Impl;
+    class Measuring;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Settings of what was measured.
+[[nodiscard]] HALFLIT_API Settings with_share(Settings settings, const MeasuredShare& measured);
+/// What keeps the share in two views of a scene.
+[[nodiscard]] HALFLIT_API MeasuredShare more_careful(const MeasuredShare& a, const MeasuredShare& b);
 
 /// @{
 /// Draws one picture with a temporary Renderer.

@@ -45,6 +45,20 @@ struct WorkCounts {
     friend bool operator==(const WorkCounts&, const WorkCounts&) = default;
 };
 
+/// A budget that is measured: a share of the pixels, in percent, is within some 8-bit codes of the picture in full quality.
+struct ShareBudget {
+    double codes = 2, percent = 99;
+};
+inline constexpr ShareBudget kFastQuality{2, 99}, kDraftQuality{8, 95};
+
+/// The cheapest settings that keep a ShareBudget, and how far probes show that they do.
+struct MeasuredShare {
+    ShareBudget asked;
+    double percent = 100;         ///< share that the probes show, with a confidence of 95 %; 100: the settings are those of full quality
+    int probes = 0, outside = 0;  ///< pixels that were compared, and those of them outside
+    int samples = 0, anisotropy = 0, shadow_size = 0;  ///< the settings of that name
+};
+
 /// Times are milliseconds of wall clock.
 struct RenderReport {
     /// Time of each step. They do not overlap; what is between them is in total_ms alone.

@@ -726,6 +726,26 @@ HALFLIT_C_API int32_t halflit_render(halflit_renderer* renderer, const halflit_s
 /// A warning of the renderer's last frame: one line, valid until its next frame.
 HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
 
+/// A budget that is measured: a share of the pixels is within some 8-bit codes of the picture in full quality; and the cheapest settings
+/// that keep it. 2 codes for 99 % are called fast, 8 codes for 95 % draft.
+typedef struct halflit_measured {
+    size_t size;
+    double codes, asked_percent;               ///< the budget: 0 to 255, and above 0 and below 100
+    double percent;                            ///< share that the probes show, with a confidence of 95 %; 100: the settings are those given
+    int32_t probes, outside;                   ///< pixels that were compared, and those of them outside; 0 probes: nothing is known yet
+    int32_t samples, anisotropy, shadow_size;  ///< members of halflit_settings
+    int32_t reserved;
+} halflit_measured;
+/// Sets codes and asked_percent to 2 and 99, the rest to 0.
+HALFLIT_C_API int32_t halflit_measured_init(halflit_measured* measured, size_t size);
+/// Finds the cheapest settings that keep the budget in `measured` for a picture of width x height, by probes: pixels that a hash chooses
+/// are drawn in the given settings and in cheaper ones. That takes about as long as a frame, so it is for sequences: call it for some of
+/// the views with one halflit_measured, which then keeps the budget in all of them, and draw with its samples, anisotropy and shadow_size.
+/// Fails (usage) for settings with an error budget, or an accuracy other than exact.
+HALFLIT_C_API int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting,
+                                      const halflit_camera* camera, const halflit_settings* settings, int32_t width, int32_t height,
+                                      halflit_measured* measured);
+
 // ---- pictures ----------------------------------------------------------------------------------------------------------
 
 /// 64-bit hash of bytes, XXH64 with seed 0: the identity of a picture whose rows have no gaps. Null counts as no bytes.
