@@ -88,18 +88,24 @@ private:
         constexpr float kLeastCosineSquared = 0.8125f;
         if (a.floats <= shading::kNormalX + 2) return true;  // no light, no normals
         const auto product = [](const float* m, const float* n) { return (m[0] * n[0] + m[1] * n[1]) + m[2] * n[2]; };
-        bool alike = true;
-        for (unsigned k = 0; k < 3; ++k) {
-            if ((common >> k & 1u) == 0) continue;
-            const float* const n = a.record[k] + shading::kNormalX;
-            const float length = product(n, n);
-            for (const Triangle* triangle : {&a, &b})
-                for (const float* record : triangle->record) {
-                    const float* const m = record + shading::kNormalX;
-                    const float cosine = product(n, m);
-                    alike &= (cosine > 0.0f) & (cosine * cosine >= kLeastCosineSquared * (length * product(m, m)));
-                }
+        const float* normal[5];  // the common corners first, then the others
+        int commons = 0, count = 0;
+        for (int pass = 0; pass < 2; ++pass, commons = pass == 1 ? count : commons)
+            for (unsigned k = 0; k < 3; ++k)
+                if ((common >> k & 1u) == (pass == 0 ? 1u : 0u)) normal[count++] = a.record[k] + shading::kNormalX;
+        for (const float* record : b.record) {
+            bool known = false;
+            for (int i = 0; i < commons; ++i) known |= record + shading::kNormalX == normal[i];
+            if (!known && count < 5) normal[count++] = record + shading::kNormalX;
         }
+        float length[5];
+        for (int i = 0; i < count; ++i) length[i] = product(normal[i], normal[i]);
+        bool alike = true;
+        for (int k = 0; k < commons; ++k)
+            for (int i = k + 1; i < count; ++i) {
+                const float cosine = product(normal[k], normal[i]);
+                alike &= (cosine > 0.0f) & (cosine * cosine >= kLeastCosineSquared * (length[k] * length[i]));
+            }
         return alike;
     }
 

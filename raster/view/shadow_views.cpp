@@ -129,11 +129,13 @@ Choice choose(const LightPlan& light, const Bounds& bounds, const ShadowCasters&
     return choice;
 }
 
-/// The side that gives a texel the width that is asked for where a picture sees the scene: at the geometric mean of its depths. Sides are
-/// quarters of a power of two, so that a camera that moves a little gets the same map.
+/// The side that gives a texel the width that is asked for where a picture sees the scene: at the geometric mean of its depths, and up
+/// to 1.5 times that width nearest to the camera. Sides are quarters of a power of two, so that a camera that moves a little gets the same
+/// map.
 int side_for(const Choice& choice, const LightPlan& light, const Bounds& bounds, const SeenVolume* seen, const ShadowSizes& sizes) {
     if (seen == nullptr || sizes.texel_px == 0.0) return sizes.most;
-    const double depth = seen->perspective ? __builtin_sqrt(std::max(0.0, seen->depth.low) * seen->depth.high) : 1.0;
+    const double low = std::max(0.0, seen->depth.low);
+    const double depth = seen->perspective ? std::min(__builtin_sqrt(low * seen->depth.high), 1.5 * low) : 1.0;
     const double texel = sizes.texel_px * seen->pixel * depth;
     double width = 2.0;  // of what the map shows, world units; of what the four faces show that a cube's side stands for
     if (choice.kind == ShadowMapPlan::Kind::orthographic) {
