@@ -17,55 +17,81 @@
 namespace halflit::shading::reference {
 namespace irradiance {  // named, as a class of the header has members of these types
 
-/// A part of the image: its middle weighted by solid angle, and radiance times solid angle over pi.
+/// A part of the image: radiance times solid angle over pi, the mean direction that it comes from, which is shorter than 1, and half its
+/// width along two directions across that.
 struct Patch {
-    Vec3d direction, light;
+    Vec3d direction, light, along, across;
 };
 
-/// Cuts large pixels and merges small ones into about 512 x 256 patches. A pixel is a patch of constant radiance.
+/// Cuts large pixels and merges small ones into some 512 x 256 patches, 256 x 128 for images that are no larger. A pixel is a patch of
+/// constant radiance.
 std::vector<Patch> patches(const Environment& environment) {
-    constexpr int kWidth = 512;  // columns; 256 for images that are no wider, whose patches are cut from constant pixels
+    constexpr int kWidth = 512, kHeight = 256;
     const sh::EquirectView image = environment.light->image();
-    const int width = image.width, height = image.height;
-    const int step = std::max(1, width / kWidth), cuts = std::max(1, kWidth / 2 / width);
+    const int step_x = std::max(1, image.width / kWidth), cuts_x = std::max(1, kWidth / 2 / image.width);
+    const int step_y = std::max(1, image.height / kHeight), cuts_y = std::max(1, kHeight / 2 / image.height);
+    const int columns = image.width * cuts_x, rows = image.height * cuts_y;
     const sh::Rotation turn = sh::rotation_about_y(environment.rotate_rad);
-    const double columns = static_cast<double>(width) * cuts, rows = static_cast<double>(height) * cuts;
+    const double width_rad = 2.0 * kPi / columns;
     std::vector<Patch> out;
-    // x and y count cuts of pixels. A patch is `step` of them along each axis where pixels are merged, and one where they are cut.
-    for (int y = 0; y < height * cuts; y += step) {
+    // x and y count cuts of pixels. A patch is a step of them along each axis where pixels are merged, and one where they are cut.
+    for (int y = 0; y < rows; y += step_y) {
         check_time();
-        for (int x = 0; x < width * cuts; x += step) {
-            Patch patch{};
-            Vec3d middle{};
-            for (int j = y; j < std::min(y + step, height * cuts); ++j) {
-                const double solid_angle = 2.0 * kPi / columns * (std::cos(kPi * j / rows) - std::cos(kPi * (j + 1) / rows));
-                for (int i = x; i < std::min(x + step, width * cuts); ++i) {
-                    patch.light = patch.light + image.at(i / cuts, j / cuts) * (solid_angle / kPi);
-                    middle = middle + sh::equirect_direction((i + 0.5) / columns, (j + 0.5) / rows) * solid_angle;
+        const int end_y = std::min(y + step_y, rows);
+        for (int x = 0; x < columns; x += step_x) {
+            const int end_x = std::min(x + step_x, columns);
+            Vec3d light{}, direction{}, dark{};
+            double weight = 0.0, angle = 0.0;
+            for (int j = y; j < end_y; ++j) {
+                // Integrals over the cut of a row: of the solid angle, and of the direction's part along y and across it.
+                const double top = kPi * j / rows, bottom = kPi * (j + 1) / rows, middle = 0.5 * (top + bottom);
+                const double solid_angle = width_rad * (2.0 * std::sin(middle) * std::sin(0.5 * (bottom - top)));
+                const double up = std::cos(middle) * std::cos(0.5 * (bottom - top));
+                const double flat = (0.5 * (bottom - top) - 0.25 * (std::sin(2.0 * bottom) - std::sin(2.0 * top))) *
+                                    (2.0 * std::sin(0.5 * width_rad)) / solid_angle;
+                for (int i = x; i < end_x; ++i) {
+                    const Vec3d color = image.at(i / cuts_x, j / cuts_y), level = sh::equirect_direction((i + 0.5) / columns, 0.5);
+                    const Vec3d mean{level.x * flat, up, level.z * flat};
+                    const double share = solid_angle * ((color.x + color.y) + color.z);
+                    light = light + color * (solid_angle / kPi);
+                    direction = direction + mean * share, weight += share;
+                    dark = dark + mean * solid_angle, angle += solid_angle;
                 }
             }
-            patch.direction = turn * (middle * (1.0 / std::sqrt(dot(middle, middle))));
-            out.push_back(patch);
+            const double middle = kPi * (0.5 * (y + end_y)) / rows, half_width = 0.5 * width_rad * (end_x - x) * std::sin(middle);
+            const Vec3d level = sh::equirect_direction(0.5 * (x + end_x) / columns, 0.5);
+            const Vec3d down{level.x * std::cos(middle), -std::sin(middle), level.z * std::cos(middle)}, side{-level.z, 0.0, level.x};
+            out.push_back({turn * (weight > 0.0 ? direction * (1.0 / weight) : dark * (1.0 / angle)), light,
+                           turn * (down * (0.5 * kPi * (end_y - y) / rows)), turn * (side * half_width)});
         }
     }
     return out;
 }
 
-/// f(x) with x in [-1, 1], from a table: pow for every pixel and node would take minutes.
+/// f(x) with x in [-1, 1], and its means over intervals, from a table of its integral: pow for every pixel and node would take minutes.
 class LobeTable {
 public:
     explicit LobeTable(const Lobe& lobe) {
-        for (int i = 0; i <= kSize + 1; ++i) values_[static_cast<std::size_t>(i)] = lobe_value(lobe, std::min(1.0, 2.0 * i / kSize - 1.0));
+        const auto value = [&](int i) { return lobe_value(lobe, std::clamp(2.0 * i / kSize - 1.0, -1.0, 1.0)); };
+        for (int i = 0; i <= kSize; ++i)  // from -1 on; trapezes
+            integral_[static_cast<std::size_t>(i + 1)] = integral_[static_cast<std::size_t>(i)] + (value(i) + value(i + 1)) / kSize;
     }
-    [[nodiscard]] double at(double x) const {
-        const double u = (std::clamp(x, -1.0, 1.0) + 1.0) * (0.5 * kSize);
-        const auto i = static_cast<std::size_t>(u);
-        return values_[i] + (u - static_cast<double>(i)) * (values_[i + 1] - values_[i]);
+    /// Mean over [x - half, x + half], which may leave [-1, 1].
+    [[nodiscard]] double mean(double x, double half) const {
+        constexpr double kLeast = 2.0 / kSize;
+        half = std::max(half, kLeast);
+        const double low = std::max(x - half, -1.0), high = std::min(x + half, 1.0);
+        return high > low ? (integral(high) - integral(low)) / (high - low) : 0.0;
     }
 
 private:
+    [[nodiscard]] double integral(double x) const {
+        const double u = (x + 1.0) * (0.5 * kSize);
+        const auto i = std::min(static_cast<std::size_t>(u), static_cast<std::size_t>(kSize - 1));
+        return integral_[i] + (u - static_cast<double>(i)) * (integral_[i + 1] - integral_[i]);
+    }
     static constexpr int kSize = 1 << 16;
-    std::vector<double> values_ = std::vector<double>(kSize + 2);
+    std::vector<double> integral_ = std::vector<double>(kSize + 2);
 };
 
 /// Face 2 axis + (negative ? 1 : 0) lies along that axis; u and v run along the two axes that follow it.
@@ -126,7 +152,11 @@ private:
         const Vec3d normal =
             direction_of(face, std::tan(kPi / 4 * (2.0 * (i - 1) / kCells - 1.0)), std::tan(kPi / 4 * (2.0 * (j - 1) / kCells - 1.0)));
         Vec3d total{};
-        for (const Patch& patch : patches_) total = total + patch.light * table_->at(dot(patch.direction, normal));
+        for (const Patch& patch : patches_) {
+            // Of even light, directions within the patch are spread evenly along the normal, as nearly as their variance tells.
+            const double along = dot(patch.along, normal), across = dot(patch.across, normal);
+            total = total + patch.light * table_->mean(dot(patch.direction, normal), std::sqrt(along * along + across * across));
+        }
         return total;
     }
 

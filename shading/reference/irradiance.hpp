@@ -12,10 +12,9 @@ namespace halflit::shading::reference {
 /// Largest power of lobes that DirectIrradiance resolves.
 inline constexpr float kSharpestIntegrated = 32.0f;
 
-/// (1/pi) integral of L f by direct summation in double, over some 512 x 256 patches of the image, at the nodes of six square grids, with
-/// cubic interpolation between the nodes. Error: about 1e-5 of the light's largest value for lobes up to the power kSharpestIntegrated.
-/// Sharper lobes become narrower than the patches: under a uniform sky one of power 8192 is off by a third near the poles of the image.
-/// A node is summed where it is first asked for, in about 0.3 ms; all of them take 2 to 3 s.
+/// (1/pi) integral of L f in double, over some 512 x 256 patches of the image, at the nodes of six square grids, with cubic interpolation
+/// between the nodes. The lobe is averaged over each patch. Error: 1e-6 of the image's largest value for smooth lobes, 1e-5 up to the power
+/// kSharpestIntegrated. A node is summed where it is first asked for, in about 1 ms; all of them take 5 s.
 class DirectIrradiance final : public Irradiance {
 public:
     /// Requires: the environment was made with keep_light, and outlives this.
