@@ -25,6 +25,7 @@ struct TradeOptions : RenderOptions {
 TradeSpace space_of(const RenderJob& job, const TradeOptions& options) {
     const Scene& scene = job.scene();
     TradeSpace space{.shadows = options.settings.shadows, .shadow_size = job.settings.shadow_size, .lobes = options.lobes};
+    space.samples = job.settings.samples, space.anisotropy = job.settings.shading.anisotropy;
     space.environment = job.light.environment != nullptr;
     space.textures = !scene.textures.empty();
     space.lights = !job.light.all_lights().empty();

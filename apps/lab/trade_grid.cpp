@@ -17,7 +17,7 @@ constexpr std::array kRates{ShadingRate::pixel, ShadingRate::gouraud, ShadingRat
 constexpr std::array kTextures{TextureDetail::full, TextureDetail::bilinear, TextureDetail::nearest};
 constexpr std::array kBudgets{0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
 constexpr std::array kShadowSizes{2048, 1024, 512};
-constexpr int kAutoShadowSize = 1024;  ///< the auto one has less than twice as many
+constexpr int kAutoShadowSize = 1024;  ///< sizes below it are offered beside auto
 
 std::vector<int> orders(const TradeSpace& space) {
     std::vector<int> list{0};
@@ -72,6 +72,8 @@ void add_alone(Collector& list, const TradeSpace& space, const TradeChoice& exac
     vary(&TradeChoice::rate, kRates);
     vary(&TradeChoice::texture, textures(space));
     vary(&TradeChoice::max_error_codes, kBudgets);
+    vary(&TradeChoice::samples, std::array{1});
+    if (space.textures) vary(&TradeChoice::anisotropy, std::array{1});
     for (const Shadows& kind : shadows(space)) {
         // Mode and size are varied one at a time.
         if (kind.mode != space.shadows && kind.size != space.shadow_size) continue;
@@ -80,6 +82,13 @@ void add_alone(Collector& list, const TradeSpace& space, const TradeChoice& exac
         choice.shadow_size = kind.size;
         list.add(choice);
     }
+    // What is cheap and seldom seen, together.
+    TradeChoice cheap = exact;
+    cheap.samples = 1;
+    if (space.textures) cheap.anisotropy = 1;
+    if (const std::vector<Shadows> kinds = shadows(space); kinds.size() > 1 && kinds[1].mode == space.shadows)
+        cheap.shadow_size = kinds[1].size;
+    list.add(cheap);
 }
 
 void add_product(Collector& list, const TradeSpace& space, const TradeChoice& exact, const std::vector<Shadows>& kinds) {
@@ -106,6 +115,10 @@ void describe(const TradeChoice& choice, const TradeSpace& space, const Add& add
             fmt::format("--max-error {:g}", choice.max_error_codes));
     if (choice.accuracy != Accuracy::exact)
         add(std::string(accuracy_name(choice.accuracy)), fmt::format("--accuracy {}", accuracy_name(choice.accuracy)));
+    if (choice.samples != space.samples)
+        add(fmt::format("{} sample{}", choice.samples, choice.samples == 1 ? "" : "s"), fmt::format("--samples {}", choice.samples));
+    if (choice.anisotropy != space.anisotropy)
+        add(fmt::format("anisotropy {}", choice.anisotropy), fmt::format("--anisotropy {}", choice.anisotropy));
     if (choice.order > 0) add(fmt::format("order {}", choice.order), fmt::format("--sh-order {}", choice.order));
     if (choice.rate != ShadingRate::pixel) add(std::string(rate_name(choice.rate)), fmt::format("--shading {}", rate_name(choice.rate)));
     if (choice.texture != TextureDetail::full)
@@ -164,9 +177,8 @@ std::vector<TradeChoice> trade_choices(const TradeSpace& space, TradeExtent exte
 
 std::string trade_name(const TradeChoice& choice, const TradeSpace& space) {
     std::string name;
-    if (choice.accuracy == Accuracy::exact && choice.max_error_codes == 0) name = "exact";
     describe(choice, space, [&](const std::string& part, const std::string&) { name += (name.empty() ? "" : ", ") + part; });
-    return name;
+    return name.empty() ? "exact" : name;
 }
 
 std::string trade_flags(const TradeChoice& choice, const TradeSpace& space) {
@@ -185,6 +197,8 @@ void apply_choice(Settings& settings, const TradeChoice& choice) {
     settings.shading.texture_detail = choice.texture;
     settings.shadows = choice.shadows;
     settings.shadow_size = choice.shadow_size;
+    settings.samples = choice.samples;
+    settings.shading.anisotropy = choice.anisotropy;
 }
 
 }  // namespace halflit::cli

@@ -28,7 +28,8 @@ struct TradeChoice {
     ShadingRate rate = ShadingRate::pixel;
     TextureDetail texture = TextureDetail::full;
     ShadowMode shadows = ShadowMode::soft_split;
-    int shadow_size = 2048;
+    int shadow_size = 0;
+    int samples = 4, anisotropy = 4;
 
     friend bool operator==(const TradeChoice&, const TradeChoice&) = default;
 };
@@ -37,15 +38,18 @@ struct TradeChoice {
 struct TradeSpace {
     bool environment = false, textures = false, lights = false;
     ShadowMode shadows = ShadowMode::soft_split;
-    int shadow_size = 2048;
+    int shadow_size = 0;
+    int samples = 4, anisotropy = 4;
     std::vector<TradeLobe> lobes;
 
-    [[nodiscard]] TradeChoice exact() const { return {.shadows = shadows, .shadow_size = shadow_size}; }
+    [[nodiscard]] TradeChoice exact() const {
+        return {.shadows = shadows, .shadow_size = shadow_size, .samples = samples, .anisotropy = anisotropy};
+    }
     [[nodiscard]] TradeChoice reference(std::optional<std::size_t> lobe) const;
 };
 
 enum class TradeExtent : std::uint8_t {
-    quick,  ///< one setting at a time, the others as in exact; and the error budgets
+    quick,  ///< one setting at a time, the others as in exact; the error budgets; samples, anisotropy and shadow size together
     usual,  ///< also all combinations of order, rate and texture filter
     all     ///< also those combinations with every kind of shadow
 };
@@ -53,7 +57,7 @@ enum class TradeExtent : std::uint8_t {
 /// Each choice once, exact first: for the scene's own lobe, then for each of the others. Features that the scene lacks are not varied.
 [[nodiscard]] std::vector<TradeChoice> trade_choices(const TradeSpace& space, TradeExtent extent);
 
-/// Name for reports: "exact, order 3, gouraud".
+/// Name for reports: "order 3, gouraud"; "exact" where nothing differs from it.
 [[nodiscard]] std::string trade_name(const TradeChoice& choice, const TradeSpace& space);
 /// Flags to add to a `halflit render` command: "--sh-order 3 --shading gouraud". Empty for exact.
 [[nodiscard]] std::string trade_flags(const TradeChoice& choice, const TradeSpace& space);

@@ -49,14 +49,14 @@ img {{ width: 100%; height: auto; border: 1px solid #ddd }}
 
 double shown(double error) { return std::max(error, kLeastShown); }
 
-/// Groups of rows by accuracy, with their colours in the plot.
+/// Groups of rows, with their colours in the plot.
 struct Kind {
     const char* name;
     const char* color;
     bool (*has)(const TradeRow&);
 };
-constexpr Kind kKinds[] = {{"exact", "#56b4e9", [](const TradeRow& r) { return !r.bound && r.choice.accuracy == Accuracy::exact; }},
-                           {"budget", "#cc79a7", [](const TradeRow& r) { return r.bound.has_value(); }}};
+constexpr Kind kKinds[] = {{"settings", "#56b4e9", [](const TradeRow& r) { return !r.bound && r.choice.accuracy == Accuracy::exact; }},
+                           {"budgets", "#cc79a7", [](const TradeRow& r) { return r.bound.has_value(); }}};
 
 /// Plot of error against time for one lobe, without the reference, which takes far longer.
 Plot plot_of(const std::vector<TradeRow>& rows, std::optional<std::size_t> lobe, const std::string& title) {
@@ -110,18 +110,18 @@ std::string bound_text(const TradeRow& row) {
 
 std::string table_row(const TradeRow& row) {
     return fmt::format(
-        "<tr class=\"{}{}\"><td>{}</td><td>{}{}</td><td>{:.2f}</td><td>{:.3f}</td><td>{:.2f} to "
-        "{:.2f}</td><td>{:.2f}</td><td>{:.3g}</td><td>{:.3g}</td>"
+        "<tr class=\"{}{}\"><td>{}</td><td>{}{}</td><td title=\"{:.2f} ms; {:.2f} to {:.2f}; CPU time {:.2f}\">{:.2f}</td>"
+        "<td>{:.3g}</td><td>{:.3g}</td>"
         "<td>{:.3g}</td><td>{}</td><td>{:.3g} %</td><td>{}</td></tr>\n",
         row.front ? "front" : "", row.kept() ? "" : " broken", row.number > 0 ? fmt::format("{}", row.number) : "", xml_escaped(row.name),
-        flags_html(row), row.ms, row.ratio, row.ratio_min, row.ratio_max, row.cpu_ratio, row.error.max, row.error.p999, row.error.mean,
+        flags_html(row), row.ms, row.ratio_min, row.ratio_max, row.cpu_ratio, row.ratio, row.error.max, row.error.p999, row.error.mean,
         row.error.psnr ? fmt::format("{:.1f}", *row.error.psnr) : "", 100 * row.error.share_off, bound_text(row));
 }
 
 std::string table_of(const std::vector<TradeRow>& rows) {
     std::string html =
-        "<table class=\"all\">\n<tr><th></th><th>settings, and flags to copy</th><th>ms</th><th>time</th><th>range of time</th>"
-        "<th>CPU time</th><th>largest error</th><th>error of 99.9 %</th><th>mean error</th><th>PSNR, dB</th><th>pixels off by 1</th>"
+        "<table class=\"all\">\n<tr><th></th><th>settings, and flags to copy</th><th>time</th>"
+        "<th>largest error</th><th>error of 99.9 %</th><th>mean error</th><th>PSNR, dB</th><th>pixels off by 1</th>"
         "<th>bound</th></tr>\n";
     for (const TradeRow* row : rows_by_time(rows)) html += table_row(*row);
     return html + "</table>\n";
@@ -130,7 +130,7 @@ std::string table_of(const std::vector<TradeRow>& rows) {
 /// The settings to use, by the error that is allowed.
 std::string offers_of(const std::vector<TradeRow>& rows, const TradeSpace& space) {
     const std::vector<TradeOffer> offers = trade_offers(rows, space);
-    if (offers.empty()) return "<p>Nothing is surely cheaper than exact.</p>\n";
+    if (offers.empty()) return "";
     std::string html = "<table class=\"offers\">\n<tr><th>error of 99.9 % at most</th><th>time</th><th>flags to copy</th></tr>\n";
     for (const TradeOffer& offer : offers)
         html += fmt::format("<tr><td>{:g}</td><td>{:.2f}</td><td>{}</td></tr>\n", offer.codes, offer.row->ratio, flags_html(*offer.row));
@@ -191,6 +191,9 @@ Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& be
     const RenderJob& job = bench.job();
     const TradeRow& exact = exact_row(rows, bench.space());
     std::string html = fmt::format(kHead, xml_escaped(job.source.name));
+    html += "<p><b>";
+    for (const std::string& line : trade_verdict(rows, bench.space())) html += xml_escaped(line) + "<br>\n";
+    html += "</b></p>\n";
     html += fmt::format(
         "<p>{}x{} pixels, {} samples per pixel; geometry covers {} pixels. Exact takes {:.2f} ms. Times are medians of {} frames, "
         "each drawn in turn with a frame of exact, and divided by its time; exact against itself gave {:.2f} to {:.2f}. An error is the "

@@ -19,6 +19,9 @@ std::string lobe_name(const TradeRow& row, const TradeSpace& space) { return row
 /// The accuracy's name, or "budget".
 std::string accuracy_of(const TradeRow& row) { return row.bound ? "budget" : std::string(accuracy_name(row.choice.accuracy)); }
 
+/// Faster in every pair of frames, and by more than exact against itself varies.
+bool surely_cheaper(const TradeRow& row, const TradeRow& exact) { return row.ratio_max < 1 && row.ratio < exact.ratio_min; }
+
 std::string quoted(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
 
 Json row_json(const TradeRow& row, const TradeSpace& space) {
@@ -34,6 +37,8 @@ Json row_json(const TradeRow& row, const TradeSpace& space) {
               {"texture_filter", texture_detail_name(choice.texture)},
               {"shadows", shadow_mode_name(choice.shadows)},
               {"shadow_size", choice.shadow_size},
+              {"samples", choice.samples},
+              {"anisotropy", choice.anisotropy},
               {"lobes_computed_as", row.lobe_paths},
               {"specular_power", row.specular_tier.empty() ? Json(nullptr) : Json(row.specular_tier)},
               {"frames", row.frames},
@@ -60,15 +65,14 @@ Json row_json(const TradeRow& row, const TradeSpace& space) {
 
 std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space) {
     std::string text =
-        "name,flags,lobe,accuracy,max_error,order,rate,texture_filter,shadows,shadow_size,ms,ratio,ratio_min,ratio_max,cpu_ratio,max,mean,"
-        "p999,psnr,"
-        "share_off_by_one,bound,within,kept,front\n";
+        "name,flags,lobe,accuracy,max_error,order,rate,texture_filter,shadows,shadow_size,samples,anisotropy,ms,ratio,ratio_min,"
+        "ratio_max,cpu_ratio,max,mean,p999,psnr,share_off_by_one,bound,within,kept,front\n";
     for (const TradeRow& row : rows) {
         const TradeChoice& c = row.choice;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},", quoted(row.name), row.flags, lobe_name(row, space), accuracy_of(row),
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},", quoted(row.name), row.flags, lobe_name(row, space), accuracy_of(row),
                             c.max_error_codes > 0 ? fmt::format("{:g}", c.max_error_codes) : "",
                             c.order > 0 ? fmt::format("{}", c.order) : "auto", rate_name(c.rate), texture_detail_name(c.texture),
-                            shadow_mode_name(c.shadows), c.shadow_size);
+                            shadow_mode_name(c.shadows), c.shadow_size, c.samples, c.anisotropy);
         text += fmt::format("{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.6g},{:.6g},{:.6g},{},{:.6g},{},{},{},{}\n", row.ms, row.ratio,
                             row.ratio_min, row.ratio_max, row.cpu_ratio, row.error.max, row.error.mean, row.error.p999,
                             row.error.psnr ? fmt::format("{:.2f}", *row.error.psnr) : "", row.error.share_off,
@@ -100,10 +104,8 @@ std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& b
                                    bench.job().source.name, bench.job().width, bench.job().height, bench.job().settings.samples,
                                    bench.exact_ms(), exact_row(rows, bench.space()).ratio_min, exact_row(rows, bench.space()).ratio_max);
     const std::vector<TradeOffer> offers = trade_offers(rows, bench.space());
-    if (offers.empty())
-        text += "nothing is surely cheaper than exact\n";
-    else
-        text += " error at most    time   flags (error of 99.9 % of the pixels in 8-bit codes; time of exact = 1)\n";
+    for (const std::string& line : trade_verdict(rows, bench.space())) text += line + "\n";
+    if (!offers.empty()) text += " error at most    time   flags (error of 99.9 % of the pixels in 8-bit codes; time of exact = 1)\n";
     for (const TradeOffer& offer : offers) text += fmt::format("{:>14g}  {:>6.2f}   {}\n", offer.codes, offer.row->ratio, offer.row->flags);
     for (const TradeRow& row : rows)
         if (!row.kept())
@@ -121,17 +123,55 @@ std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows) {
 
 std::vector<TradeOffer> trade_offers(const std::vector<TradeRow>& rows, const TradeSpace& space) {
     const TradeRow& exact = exact_row(rows, space);
-    const auto surely_cheaper = [&](const TradeRow& row) { return row.ratio_max < 1 && row.ratio < exact.ratio_min; };
     std::vector<TradeOffer> offers;
     for (const double codes : kAllowances) {
         const TradeRow* best = nullptr;
         for (const TradeRow& row : rows)
-            if (!row.choice.lobe && row.error.p999 <= codes && row.choice.accuracy != Accuracy::reference && surely_cheaper(row) &&
+            if (!row.choice.lobe && row.error.p999 <= codes && row.choice.accuracy != Accuracy::reference && surely_cheaper(row, exact) &&
                 (best == nullptr || row.ratio < best->ratio))
                 best = &row;
         if (best != nullptr && (offers.empty() || offers.back().row != best)) offers.push_back({codes, best});
     }
     return offers;
+}
+
+std::vector<std::string> trade_verdict(const std::vector<TradeRow>& rows, const TradeSpace& space) {
+    constexpr double kFree = 0.1, kLittle = 1.0;  // codes
+    const TradeRow& exact = exact_row(rows, space);
+    const std::vector<TradeOffer> offers = trade_offers(rows, space);
+    const auto best = [&](double codes) {
+        const TradeRow* found = nullptr;
+        for (const TradeOffer& offer : offers)
+            if (offer.codes <= codes) found = offer.row;  // offers fall in time
+        return found;
+    };
+    const auto told = [](const TradeRow* row) {
+        return row == nullptr ? std::string("nothing") : fmt::format("{}, time {:.2f}", row->name, row->ratio);
+    };
+    std::vector<std::string> lines{"free (within 0.1 codes): " + told(best(kFree)), "for one code: " + told(best(kLittle))};
+    // What costs accuracy and saves nothing, and what the noise hides.
+    std::string wasted;
+    int hidden = 0;
+    double frames = 0;
+    for (const TradeRow& row : rows) {
+        if (row.choice.lobe || row.choice.accuracy == Accuracy::reference || &row == &exact) continue;
+        const bool alone = row.name.find(", ") == std::string::npos;
+        if (alone && row.error.p999 > exact.error.p999 + kFree && row.ratio > 0.97) wasted += (wasted.empty() ? "" : "; ") + row.name;
+        const double gain = 1.0 - row.ratio, noise = std::max(row.ratio_max - row.ratio, 1.0 - exact.ratio_min);
+        if (row.ratio < 0.97 && !surely_cheaper(row, exact)) {
+            ++hidden;
+            // The median of n frames is off by the noise over the root of n.
+            frames = std::max(frames, row.frames * (noise / gain) * (noise / gain));
+        }
+    }
+    lines.push_back("not worth it: " + (wasted.empty() ? std::string("nothing of these") : wasted));
+    if (hidden > 0)
+        lines.push_back(
+            fmt::format("too noisy to tell: {} setting{} seemed faster, but not in every pair of frames; --frames {} or a quiet "
+                        "machine would show it",
+                        hidden, hidden == 1 ? "" : "s", std::clamp(static_cast<int>(frames) + 1, exact.frames + 1, 1000)));
+    if (offers.empty() && hidden == 0) lines.emplace_back("nothing is cheaper than exact");
+    return lines;
 }
 
 const TradeRow& exact_row(const std::vector<TradeRow>& rows, const TradeSpace& space) {
