@@ -92,16 +92,16 @@ std::vector<Combination> combinations(const Settings& full, const std::vector<Ch
 std::vector<std::uint32_t> choose_probes(int width_px, int height_px, const Camera& camera) {
     constexpr std::uint64_t kOneOf = 100, kLeast = 512, kMost = 4096;
     const std::uint64_t pixels = static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(height_px);
-    const std::uint64_t count = std::min(pixels, std::clamp(pixels / kOneOf, kLeast, kMost));
+    const std::uint64_t count = std::min(pixels, std::clamp(pixels / kOneOf, kLeast, kMost)), step = pixels / count;
     std::uint64_t seed = mixed(pixels);
     for (const Vec4f& column : camera.world_from_camera.c)
         for (const float x : {column.x, column.y, column.z, column.w}) seed = mixed(seed ^ std::bit_cast<std::uint32_t>(x));
+    // One in each stretch of the picture, from a place on that is any pixel: all are equally likely.
+    const std::uint64_t first = seed % pixels;
     std::vector<std::uint32_t> probes;
     probes.reserve(count);
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const std::uint64_t begin = i * pixels / count, end = (i + 1) * pixels / count;
-        probes.push_back(static_cast<std::uint32_t>(begin + mixed(seed + 0x9e3779b97f4a7c15u * (i + 1)) % (end - begin)));
-    }
+    for (std::uint64_t i = 0; i < count; ++i)
+        probes.push_back(static_cast<std::uint32_t>((first + i * step + mixed(seed + 0x9e3779b97f4a7c15u * (i + 1)) % step) % pixels));
     return probes;
 }
 

@@ -13,10 +13,10 @@
 
 namespace halflit::raster {
 
-/// What the scene leaves to choose from.
+/// Facts of the frame that decide which parts can be cheaper.
 struct QualityFacts {
     bool textures = false;  ///< some material has one
-    int shadow_size = 0;    ///< texels on a side of the largest shadow map; 0: there are none
+    int shadow_size = 0;    ///< texels on a side of all shadow maps; 0: there are none, or they differ
 };
 /// One setting that is cheaper than in full quality.
 struct CheaperPart {
@@ -44,7 +44,6 @@ public:
         : stride_((width_px + 63) / 64), bits_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_px)) {}
     void add(int x_px, int y_px) { word(x_px, y_px) |= std::uint64_t{1} << (x_px & 63); }
     [[nodiscard]] bool has(int x_px, int y_px) const { return (row(x_px, y_px) >> (x_px & 63) & 1u) != 0; }
-    /// count: at most 64.
     [[nodiscard]] bool has_any(int x_px, int y_px, int count) const {
         for (int i = 0; i < count;) {
             const int step = std::min(count - i, 64 - ((x_px + i) & 63));

@@ -10,8 +10,10 @@
 #include "raster/passes/shadow_maps.hpp"
 #include "raster/quality.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace halflit {
@@ -215,13 +217,28 @@ struct Renderer::Impl {
     }
 };
 
+namespace {
+
+/// The finer of two results, setting by setting.
+MeasuredShare more_careful(const MeasuredShare& a, const MeasuredShare& b) {
+    MeasuredShare both = a;
+    both.percent = std::min(a.percent, b.percent);
+    both.probes = a.probes + b.probes, both.outside = a.outside + b.outside;
+    both.samples = std::max(a.samples, b.samples);
+    both.anisotropy = std::max(a.anisotropy, b.anisotropy);
+    // 0 is the size in full quality.
+    both.shadow_size = a.shadow_size == 0 || b.shadow_size == 0 ? 0 : std::max(a.shadow_size, b.shadow_size);
+    return both;
+}
+
+}  // namespace
+
 /// Measures what settings keep a share, by probes of one view.
 class Renderer::Measuring {
 public:
-    Measuring(Impl& cheaper, const PreparedData& scene, const Lighting& light, const Camera& camera, const ShareBudget& budget, int width,
-              int height, Execution execution, Isa isa)
-        : cheaper_(cheaper),
-          scene_(scene),
+    Measuring(const PreparedData& scene, const Lighting& light, const Camera& camera, const ShareBudget& budget, int width, int height,
+              Execution execution, Isa isa)
+        : scene_(scene),
           light_(light),
           camera_(camera),
           budget_(budget),
@@ -232,6 +249,7 @@ public:
           probes_(choose_probes(width, height, camera)),
           mask_(width, height) {
         execution_.on_tile = {}, execution_.progress = {};
+        execution_.memory_limit = (execution_.memory_limit + 1) / 2;  // two frames are kept
         for (const std::uint32_t at : probes_)
             mask_.add(static_cast<int>(at % static_cast<std::uint32_t>(width)), static_cast<int>(at / static_cast<std::uint32_t>(width)));
     }
@@ -239,11 +257,11 @@ public:
     /// known: of other views; it is tried first. Null: there are none.
     Result<MeasuredShare> measure(Settings best, const MeasuredShare* known) {
         best.region = {};
+        const Settings settings = known != nullptr ? with_share(best, *known) : best;
+        if (known != nullptr && settings == best) return *known;
         if (auto ok = draw(full_, best, wanted_); !ok) return tl::unexpected<Error>(ok.error());
         if (full_.plan.looks_through) return result(best, 100.0, 0);  // what is behind glass is drawn as a whole: no probe is cheap
         if (known != nullptr) {
-            const Settings settings = with_share(best, *known);
-            if (settings == best) return result(best, 100.0, 0);
             const auto kept = keeps(settings);
             if (!kept) return tl::unexpected<Error>(kept.error());
             if (*kept) return result(settings, percent_, count_);
@@ -267,8 +285,8 @@ public:
 
 private:
     static constexpr int kMostTried = 3;
-    /// Of a claim that is one of so many.
-    static constexpr double kDoubt = 0.05 / (kMostTried + 1);
+    /// Any of 11 combinations, and what is known, may become the claim: together they are wrong with a probability of 5 %.
+    static constexpr double kDoubt = 0.05 / 12;
 
     [[nodiscard]] double shown(int outside) const { return share_shown(static_cast<int>(probes_.size()), outside, kDoubt); }
     [[nodiscard]] MeasuredShare result(const Settings& settings, double percent, int outside) const {
@@ -284,15 +302,21 @@ private:
         QualityFacts facts;
         for (const shading::MaterialPlan& material : full_.plan.shading.materials)
             facts.textures |= (material.stages & kStageGradients) != 0;
+        // A size that is set counts for all maps, so they must be of one size, and none of a light that has half of it.
+        std::set<int> sides;
         for (const shading::ShadowMapPlan& map : full_.plan.shading.shadow_maps)
-            facts.shadow_size = std::max(facts.shadow_size, map.kind == shading::ShadowMapPlan::Kind::cube ? 2 * map.size : map.size);
+            sides.insert(map.kind == shading::ShadowMapPlan::Kind::cube ? 2 * map.size : map.size);
+        const bool soft = std::any_of(full_.plan.shading.lights.begin(), full_.plan.shading.lights.end(),
+                                      [](const shading::LightPlan& light) { return light.shadow_points > 1; });
+        if (sides.size() == 1 && !soft && full_.plan.shading.sky.empty()) facts.shadow_size = *sides.begin();
         return facts;
     }
     /// Codes of the probes.
     Result<void> draw(Impl& by, const Settings& settings, std::vector<std::uint32_t>& codes) {
         std::uint32_t* const picture = picture_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
         const Target target{.width = width_, .height = height_, .pixels = reinterpret_cast<std::uint8_t*>(picture)};
-        auto report = by.render(scene_, light_, camera_, settings, target, execution_, isa_, {}, &mask_);
+        spent_s_ += watch_.lap() / 1000.0;
+        auto report = by.render(scene_, light_, camera_, settings, target, with_time_left(execution_, spent_s_), isa_, {}, &mask_);
         if (!report) return tl::unexpected<Error>(report.error());
         codes.clear();
         for (const std::uint32_t at : probes_) codes.push_back(picture[at]);
@@ -313,7 +337,9 @@ private:
         return percent_ >= budget_.percent;
     }
 
-    Impl full_, &cheaper_;
+    Impl full_, cheaper_;
+    Stopwatch watch_;
+    double spent_s_ = 0;
     const PreparedData& scene_;
     const Lighting& light_;
     const Camera& camera_;
@@ -371,7 +397,14 @@ Result<MeasuredShare> Renderer::measure(const PreparedScene& scene, const Lighti
             return fail(ErrorCode::usage, "percent: " + std::to_string(budget.percent) + ", expected a number above 0 and below 100");
         if (settings.shading.accuracy != Accuracy::exact || settings.shading.max_error_codes > 0.0)
             return fail(ErrorCode::usage, "measure: expected accuracy exact, and no error budget that is proven");
-        return Measuring(*impl_, scene.data(), light, camera, budget, width, height, execution, *isa).measure(settings, known);
+        if (known != nullptr) {
+            if (known->asked.codes != budget.codes || known->asked.percent != budget.percent)
+                return fail(ErrorCode::usage, "measure: what is known is of another budget");
+            if (auto ok = check_settings(with_share(settings, *known), width, height); !ok) return tl::unexpected<Error>(ok.error());
+        }
+        auto found = Measuring(scene.data(), light, camera, budget, width, height, execution, *isa).measure(settings, known);
+        if (found && known != nullptr) *found = more_careful(*known, *found);
+        return found;
     });
 }
 
@@ -380,15 +413,6 @@ Settings with_share(Settings settings, const MeasuredShare& measured) {
     settings.shading.anisotropy = measured.anisotropy;
     settings.shadow_size = measured.shadow_size;
     return settings;
-}
-
-MeasuredShare more_careful(const MeasuredShare& a, const MeasuredShare& b) {
-    MeasuredShare both = a.percent <= b.percent ? a : b;
-    both.samples = std::max(a.samples, b.samples);
-    both.anisotropy = std::max(a.anisotropy, b.anisotropy);
-    // 0 is the size in full quality.
-    both.shadow_size = a.shadow_size == 0 || b.shadow_size == 0 ? 0 : std::max(a.shadow_size, b.shadow_size);
-    return both;
 }
 
 Result<RenderReport> Renderer::render(const PreparedScene& scene, const Lighting& light, const Camera& camera, const Settings& settings,

@@ -188,15 +188,12 @@ int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, 
                                   given->anisotropy,
                                   given->shadow_size};
         const bool is_known = known.probes > 0;
-        if (is_known)
-            if (auto ok = check_settings(with_share(*how, known), width, height); !ok) return ok;
         const DrawingScene drawing(*scene);
         if (auto ok = scene->prepare(renderer->execution); !ok) return ok;
         std::optional<Lighting> moved;
-        auto found = renderer->renderer.measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->drawn(*from), *how,
-                                                known.asked, width, height, is_known ? &known : nullptr, renderer->execution);
+        const auto found = renderer->renderer.measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->drawn(*from), *how,
+                                                      known.asked, width, height, is_known ? &known : nullptr, renderer->execution);
         if (!found) return tl::unexpected<Error>(found.error());
-        if (is_known) *found = more_careful(known, *found);
         halflit_measured out = *given;
         out.percent = found->percent, out.probes = found->probes, out.outside = found->outside;
         out.samples = found->samples, out.anisotropy = found->anisotropy, out.shadow_size = found->shadow_size;

@@ -100,7 +100,7 @@ void ViewGeometry::list_draws(Executor& executor) {
     }
     draws_.clear();
     std::fill(std::begin(has_mode_), std::end(has_mode_), false);
-    shares_corners_ = false;
+    few_vertices_ = false;
     vertex_count_ = group_count_ = cluster_count_ = triangle_count_ = 0;
     std::int64_t triangle_base = 0;
     for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -123,8 +123,8 @@ void ViewGeometry::list_draws(Executor& executor) {
         draw.cluster_base = cluster_count_;
         draw.triangle_base = triangle_base - triangles;
         draw.mirrored = !draw.quads() && determinant3(instances[i].world_from_object) < 0.0;
-        draw.shares_corners = scene_->mesh(draw.mesh).shares_corners;
-        shares_corners_ |= draw.shares_corners;
+        draw.few_vertices = scene_->mesh(draw.mesh).few_vertices;
+        few_vertices_ |= draw.few_vertices;
         const Material& material = scene_->material(scene_->material_of(i));
         draw.cull_back = !material.double_sided && !draw.quads();
         draw.alpha_mode = material.is_layer() ? AlphaMode::blend : material.alpha_mode;

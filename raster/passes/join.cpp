@@ -34,7 +34,7 @@ private:
     [[nodiscard]] SurfacePairs::Pair find(std::uint32_t a, std::uint32_t b) const {
         SurfacePairs::Pair pair{a, b, SurfacePairs::Kind::apart, 0, 0};
         const TriangleRecord &of_a = geometry_.record(a), &of_b = geometry_.record(b);
-        if (!geometry_.draw_of(of_a).shares_corners || of_a.draw_and_back != of_b.draw_and_back) return pair;
+        if (!geometry_.draw_of(of_a).few_vertices || of_a.draw_and_back != of_b.draw_and_back) return pair;
         const auto& [b0, b1, b2] = of_b.vertex;
         unsigned common = 0;  // bit k: corner k of a is one of b's
         for (unsigned k = 0; k < 3; ++k) {
@@ -114,7 +114,7 @@ private:
     SurfacePairs& known_;
 };
 
-/// Samples of the larger of two sets, the first of equal ones.
+/// True if the first set has more samples.
 bool has_more(std::int32_t samples, std::int32_t than) {
     const auto count = [](std::int32_t set) {  // std::popcount is a call where the instruction is not at hand
         auto n = static_cast<unsigned>(set);
@@ -141,7 +141,8 @@ bool join_pixel(const Surfaces& surfaces, std::uint32_t* id, std::int32_t* sampl
     for (int i = 1; i < count; ++i)
         for (int j = 0; j < i; ++j) {
             if (surface[i] == surface[j] || !surfaces.are_one(id[i], id[j], x_px, y_px)) continue;
-            std::replace(surface, surface + count, std::max(surface[i], surface[j]), std::min(surface[i], surface[j]));
+            const int from = std::max(surface[i], surface[j]), to = std::min(surface[i], surface[j]);
+            std::replace(surface, surface + count, from, to);
             any = true;
         }
     if (!any) return false;
@@ -161,7 +162,7 @@ bool join_pixel(const Surfaces& surfaces, std::uint32_t* id, std::int32_t* sampl
 
 void PictureTile::join(PixelFragments& row, int y_px) const {
     const Surfaces surfaces(pass_.view.geometry, pass_.view.records, scratch_.pairs);
-    // Pixels of several fragments. Loops over all fragments have no branches, as none of them could be foretold.
+    // Pixels of several fragments. Loops over all fragments have no branches, as most of them would be mispredicted.
     int begin[kPixelsARow + 1], pixels = 0;
     row.x_px[row.count] = row.x_px[row.count - 1] + 1;
     for (int i = 0, before = row.x_px[0] - 1; i < row.count; ++i) {

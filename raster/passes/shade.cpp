@@ -1,4 +1,4 @@
-// The shade pass: shades each visible pixel once for each triangle that it shows, packed by material into full blocks.
+// The shade pass: shades each visible pixel once for each surface that it shows, packed by material into full blocks.
 #include "raster/passes/count_work.hpp"
 #include "raster/passes/picture_tile.hpp"
 #include "raster/passes/shading_rate.hpp"
@@ -14,7 +14,7 @@ TileCounts PictureTile::draw() {
     const bool empty = pass_.view.geometry.tile_is_empty(tile_), layered = !empty && has_layers();
     direct_ = samples_ == 1 && !layered;
     transmits_ = plan_.transmits && layered;
-    joins_ = plan_.options.rate == ShadingRate::pixel && pass_.view.geometry.shares_corners();
+    joins_ = plan_.options.rate == ShadingRate::pixel && pass_.view.geometry.few_vertices();
     has_whole_ = samples_ > 1 && !layered && !empty && pass_.reference == nullptr;
     if (empty) {
         fill_background();

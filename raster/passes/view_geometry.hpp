@@ -28,7 +28,7 @@ struct Draw {
     std::int64_t group_base = 0;     ///< index of its first vertex group
     std::int64_t cluster_base = 0;   ///< index of its first cluster, over all draws
     std::int64_t triangle_base = 0;  ///< number of its first triangle in submission order, over all instances of the scene
-    bool mirrored = false, cull_back = true, shares_corners = false;
+    bool mirrored = false, cull_back = true, few_vertices = false;
     AlphaMode alpha_mode = AlphaMode::opaque;  ///< blend for all layers (Material::is_layer)
 
     Topology topology = Topology::triangles;
@@ -100,8 +100,8 @@ public:
     [[nodiscard]] const PreparedData& scene() const { return *scene_; }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
-    /// True if some draw's triangles have corners in common.
-    [[nodiscard]] bool shares_corners() const { return shares_corners_; }
+    /// True if some draw's mesh has fewer than 1.5 vertices a triangle.
+    [[nodiscard]] bool few_vertices() const { return few_vertices_; }
     [[nodiscard]] bool has(AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
     /// A chunk's triangles as the kernels read them.
     [[nodiscard]] const TriangleSource& source(std::size_t chunk) const { return sources_[chunk]; }
@@ -147,7 +147,7 @@ private:
     Times times_ms_;
 
     std::vector<Draw> draws_;
-    bool has_mode_[3] = {}, shares_corners_ = false;
+    bool has_mode_[3] = {}, few_vertices_ = false;
     int one_material_ = -1;
     std::int64_t vertex_count_ = 0, group_count_ = 0, cluster_count_ = 0, triangle_count_ = 0;
     RawBuffer<std::uint8_t> seen_;  ///< per instance; scratch

@@ -276,7 +276,7 @@ Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
     prepared.clusters[count].first_group = static_cast<std::uint32_t>(prepared.vertex_groups.size());
     sum_up_clusters(prepared);
     prepared.faces = find_flat_faces(mesh);
-    prepared.shares_corners = 2 * mesh.positions.size() < mesh.indices.size();
+    prepared.few_vertices = 2 * mesh.positions.size() < mesh.indices.size();
     return prepared;
 }
 

@@ -51,7 +51,7 @@ struct PreparedMesh {
     float largest_uv = 0;                      ///< the largest magnitude of a texture coordinate
     float largest_color = 1;                   ///< the largest red, green or blue of the vertex colours, at least 1
     bool finite = true;                        ///< every used vertex is finite
-    bool shares_corners = false;               ///< below 1.5 vertices a triangle: smooth meshes have about .5, flat ones 2 or 3
+    bool few_vertices = false;                 ///< below 1.5 vertices a triangle: smooth meshes have about .5, flat ones 2 or 3
     FlatFaces faces;                           ///< floors and walls, object space
     /// Lines or points that share vertices, or have them in another order: the mesh with vertices of its own for each, whose index i is i.
     std::shared_ptr<const Mesh> unshared;

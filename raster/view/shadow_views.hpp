@@ -50,8 +50,8 @@ inline constexpr int kLeastShadowSize = 256;  ///< of maps sized by pixels
 
 /// Plans a map for every light that reaches the scene's bounds and that something casts a shadow of, fitted to the casters: directional
 /// maps, and those of point lights that see all of them within 127 degrees. Spots see no more than their cone. Other points, and spots
-/// beyond 75 degrees, get six faces of half the size, unless one cut view shows all that the picture needs. All are halved in size until
-/// they fit Settings::shadow_memory_limit. seen: the volume that the picture shows. Maps cover no more than it, casters whose shadows
+/// beyond 75 degrees, get six faces of half the size, unless one cut view shows all that the picture needs. The largest are halved until
+/// all fit Settings::shadow_memory_limit. seen: the volume that the picture shows. Maps cover no more than it, casters whose shadows
 /// cannot fall into it are left out, and directional lights get finer maps near the camera where these gain enough (shadow_cascades.hpp).
 /// Null: maps cover the whole scene, and have ShadowSizes::most.
 [[nodiscard]] Result<ShadowViews> plan_shadow_views(std::span<const shading::LightPlan> lights, const PreparedData& scene,

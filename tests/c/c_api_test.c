@@ -194,6 +194,22 @@ static void test_struct_sizes(void) {
     halflit_execution execution;
     halflit_renderer* renderer = NULL;
     halflit_counts counts;
+    {  // What keeps a share of the pixels, and a picture by it.
+        halflit_measured measured;
+        halflit_renderer* by = NULL;
+        CHECK_OK(halflit_renderer_create(NULL, &by));
+        CHECK_OK(halflit_measured_init(&measured, sizeof measured));
+        CHECK(measured.codes == 2 && measured.asked_percent == 99 && measured.probes == 0);
+        CHECK_OK(halflit_measure(by, cube.scene, cube.lighting, &cube.camera, &cube.settings, 96, 64, &measured));
+        CHECK(measured.percent >= 99 && measured.probes >= 512 && measured.samples >= 1 && measured.anisotropy >= 1);
+        CHECK_OK(halflit_measure(by, cube.scene, cube.lighting, &cube.camera, &cube.settings, 96, 64, &measured));
+        measured.samples = 3;
+        CHECK(halflit_measure(by, cube.scene, cube.lighting, &cube.camera, &cube.settings, 96, 64, &measured) == HALFLIT_ERROR_USAGE);
+        measured.probes = 0, measured.asked_percent = 100;
+        CHECK(halflit_measure(by, cube.scene, cube.lighting, &cube.camera, &cube.settings, 96, 64, &measured) == HALFLIT_ERROR_USAGE);
+        CHECK(halflit_measure(by, NULL, cube.lighting, &cube.camera, &cube.settings, 96, 64, &measured) == HALFLIT_ERROR_USAGE);
+        halflit_renderer_destroy(by);
+    }
     cube.settings.shadow_size = 0;                 // the default, which a shorter struct stands for
     cube.settings.tone_curve = HALFLIT_TONE_NONE;  // so too
     older = cube.settings;

@@ -419,6 +419,23 @@ TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(contents(folder.file("told_7.bmp")) == contents(folder.file("all_7.bmp")));
+    // A budget of one's own, and the report.
+    const Outcome shared = run({"render", "demo", "--size", "160x120", "--turntable", "9", "--max-error", "8", "--share", "95%", "-o",
+                                folder.file("shared_{}.bmp"), "--report", folder.file("shared.json")});
+    REQUIRE(shared.code == 0);
+    CHECK(contents(folder.file("shared_7.bmp")) == contents(folder.file("all_7.bmp")));
+    const auto told_quality = lines_of(contents(folder.file("shared.json"))).at(0)["quality"];
+    CHECK(told_quality["asked_percent"] == 95.0);
+    CHECK(told_quality["percent"] >= 95.0);
+    for (const Strings& wrong : {Strings{"--share", "95"},
+                                 {"--share", "95", "--max-error", "2", "--quality", "fast"},
+                                 {"--share", "100"},
+                                 {"--quality", "best"},
+                                 {"--quality", "fast", "--max-error", "2"}}) {
+        Strings words{"render", "demo", "--size", "64", "--turntable", "3", "-o", folder.file("w_{}.bmp")};
+        words.insert(words.end(), wrong.begin(), wrong.end());
+        CHECK(run(words).code == 2);
+    }
     // One picture alone has full quality.
     for (const Strings& more : {Strings{}, Strings{"--quality", "draft"}}) {
         Strings one{"render", "demo", "--size", "64", "-o", folder.file(more.empty() ? "a.bmp" : "b.bmp")};

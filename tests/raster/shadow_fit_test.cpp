@@ -118,7 +118,7 @@ TEST_CASE("shadow fit: without a size of its own a map has three texels for two 
                 Light& light = setup.scene.lights[0];
                 light.type = type;
                 light.direction_ws = {0, -1, 0};
-                light.position_ws = {0, type == LightType::point ? 0.0f : 10.0f, 0};
+                light.position_ws = {0, type == LightType::point ? 0.2f : 10.0f, 0};
                 setup.camera = camera_at({0, 0, 20}, {0, 0, 0});
                 setup.camera.orthographic = orthographic, setup.camera.half_height = 2, setup.camera.half_width = 4;
                 setup.camera.far_z = 40;
@@ -135,7 +135,11 @@ TEST_CASE("shadow fit: without a size of its own a map has three texels for two 
                 CHECK(side >= 256);
                 CHECK(side <= std::min(4 * std::max(height, 64), 2048));
                 const double pixel = orthographic ? 4.0 / height : 40 * std::tan(0.5 * double{setup.camera.fov_y_rad}) / height;
-                const double texel_px = double{map.texel_size} * (type == LightType::spot ? 10 : 1) / pixel;
+                const double texel_px = double{map.texel_size} *
+                                        (type == LightType::spot    ? 10
+                                         : type == LightType::point ? std::sqrt(3.0)
+                                                                    : 1.0) /
+                                        pixel;
                 if (side > 256 && side < std::min(4 * height, 2048)) {
                     CHECK(texel_px < 0.70);
                     CHECK(texel_px > 0.45);

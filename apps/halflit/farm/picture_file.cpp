@@ -114,8 +114,8 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     if (const ErrorBound& error = rendered->error; error.budget > 0.0 && !error.within)
         job->warnings.push_back(
             error.codes < 255.0
-                ? fmt::format("--max-error {}: {} codes at most can be promised here; the report has the parts of this bound", error.budget,
-                              error.codes)
+                ? fmt::format("--max-error {}: the least bound that can be promised here is {:.2f} codes; the report has its parts",
+                              error.budget, error.codes)
                 : fmt::format("--max-error {}: nothing can be promised here; drawn as without it", error.budget));
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) {

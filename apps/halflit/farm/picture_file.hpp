@@ -79,7 +79,8 @@ struct PictureFile {
     std::optional<Region> part_of{};   ///< of a part of a picture: what all parts make together
     std::optional<Shard> shard{};
     std::optional<ScenePlace> place{};
-    std::uint64_t file_hash = 0;  ///< of the bytes in the file; 0: they are in no file of their own
+    std::optional<MeasuredShare> measured{};  ///< of the film
+    std::uint64_t file_hash = 0;              ///< of the bytes in the file; 0: they are in no file of their own
 };
 
 /// Refuses to overwrite a file that the scene refers to, such as a texture that has the picture's name. If the report would, it is not

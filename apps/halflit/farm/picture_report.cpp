@@ -35,6 +35,11 @@ std::string picture_report(const PictureFile& file, const RenderJob& job, const 
     if (file.file_hash != 0) report["file_hash"] = fmt::format("{:016x}", file.file_hash);
     for (const AovFile& aov : file.beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(aov.aov)])] = aov.path;
     add_frame(report, job, rendered, picture);
+    if (const auto& measured = file.measured)
+        report["quality"] = {{"codes", measured->asked.codes},     {"asked_percent", measured->asked.percent},
+                             {"percent", measured->percent},       {"probes", measured->probes},
+                             {"outside", measured->outside},       {"samples", measured->samples},
+                             {"anisotropy", measured->anisotropy}, {"shadow_size", measured->shadow_size}};
     if (file.blank) report["blank"] = true;
     report["encode_ms"] = encode_ms;
     return to_text(report, one_line);

@@ -66,7 +66,6 @@ public:
         for (const std::string& choice : job->choices) print_detail(choice);
         if (options_.film.frames && options_.film.animates() && job->animation() == nullptr && options_.film.turntable == 0)
             print_warning(job->source.name + ": no animation moves it; all frames are the same");
-        if (const auto measured = measure(); !measured) return measured;
         if (const auto made = make_writer(); !made) return made;
         if (const auto drawn = draw_all(); !drawn) return drawn;
         return finish();
@@ -197,7 +196,7 @@ private:
 
     /// Measures once what quality the film needs, by three of its frames, whichever are drawn. Each frame then depends on its number alone.
     Result<void> measure() {
-        if (!options_.film.quality) return {};
+        if (!options_.film.quality || measured_.probes > 0) return {};
         constexpr std::int64_t kFrames = 3;
         const std::int64_t all = frames_of_all();
         for (std::int64_t k = 0; k < std::min(all, kFrames); ++k) {
@@ -206,11 +205,11 @@ private:
             const auto one = renderer_.measure(*job_->prepared, job_->light, camera, job_->settings, *options_.film.quality, job_->width,
                                                job_->height, k == 0 ? nullptr : &measured_, job_->timed_execution());
             if (!one) return fail(one.error().code, fmt::format("{}: {}", job_->source.name, one.error().message));
-            measured_ = k == 0 ? *one : more_careful(measured_, *one);
+            measured_ = *one;
         }
         job_->settings = with_share(job_->settings, measured_);
         const std::string size = measured_.shadow_size == 0 ? "auto" : std::to_string(measured_.shadow_size);
-        print_detail(fmt::format(
+        print_note(fmt::format(
             "quality: {:.2f} % of the pixels within {} codes, by {} probes: {}", measured_.percent, measured_.asked.codes, measured_.probes,
             measured_.percent == 100.0
                 ? "full quality"
@@ -219,6 +218,7 @@ private:
     }
 
     Result<Drawn> draw(std::size_t i) {
+        if (const auto measured = measure(); !measured) return tl::unexpected(measured.error());
         const Stopwatch preparing;
         const std::int64_t number = range_.number(i);
         Camera camera = job_->camera;
@@ -235,6 +235,7 @@ private:
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));
         drawn.rendered = *rendered;
+        if (options_.film.quality) drawn.file.measured = measured_;
         return drawn;
     }
 
@@ -335,12 +336,13 @@ Result<void> settle_quality(PictureOptions& options) {
     double& codes = options.settings.shading.max_error_codes;
     if (film.share) {
         if (film.quality) return fail(ErrorCode::usage, "--share: cannot be combined with --quality");
-        if (!(codes > 0.0)) return fail(ErrorCode::usage, "--share: expected together with --max-error");
+        if (!(codes > 0.0)) return fail(ErrorCode::usage, "--share: expected together with --max-error, and with --frames or --turntable");
         film.quality = ShareBudget{codes, *film.share};
         codes = 0.0;
     }
     if (!film.quality) return {};
-    if (codes > 0.0) return fail(ErrorCode::usage, "--quality: cannot be combined with --max-error, but --share can");
+    if (codes > 0.0)
+        return fail(ErrorCode::usage, "--quality: cannot be combined with --max-error; --max-error E --share P is a quality of its own");
     if (options.settings.shading.accuracy != Accuracy::exact)
         return fail(ErrorCode::usage, "--quality: cannot be combined with --accuracy reference");
     return {};

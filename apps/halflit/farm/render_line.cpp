@@ -147,11 +147,11 @@ Command render_table(RenderLine& o) {
            read_int(o.film.turntable, 1, 100000)},
           {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.film.dither)},
           {"--quality", "draft|fast|full",
-           "draft: at least 95 % of the pixels are within 8 codes of full quality; fast: 99 % within 2. The cheapest settings that keep "
-           "this "
-           "are found by probes in three frames, so one picture alone has full quality, which costs no more (default full)",
+           "draft: at least 95 % of the picture's pixels are within 8 codes of full quality; fast: 99 % within 2, which saves little. The "
+           "settings that keep this are found by probes in three frames; one picture alone has full quality (default full)",
            parsed(o.film.quality, parse_quality)},
-          {"--share", "PERCENT", "With --max-error: so many of the pixels are within it, measured as --quality is instead of proven",
+          {"--share", "PERCENT",
+           "With --max-error and --turntable or --frames: so many of the pixels are within it, measured as --quality is instead of proven",
            parsed(o.film.share, parse_percent)}}});
     groups.push_back(
         {"Output",

@@ -138,6 +138,12 @@ Result<double> parse_share(std::string_view text) {
     return *value / whole;
 }
 
+Result<double> parse_percent(std::string_view text) {
+    const auto value = number<double>(text.substr(0, text.size() - (text.ends_with('%') ? 1 : 0)));
+    if (!value || !(*value > 0.0 && *value < 100.0)) return expected("a number of percent above 0 and below 100, as 99.9", text);
+    return *value;
+}
+
 Result<double> parse_time(std::string_view text) {
     constexpr double kMost = 1e8;
     const auto value = number<double>(text);

@@ -21,6 +21,9 @@ namespace halflit::cli {
 /// "0.5%" or "0.005": a share from 0 to 1.
 [[nodiscard]] Result<double> parse_share(std::string_view text);
 
+/// "99.9" or "99.9%": a number above 0 and below 100.
+[[nodiscard]] Result<double> parse_percent(std::string_view text);
+
 /// Bytes in a mebibyte, the unit of the flags of memory.
 inline constexpr std::size_t kMib = std::size_t{1} << 20;
 

@@ -75,17 +75,10 @@ Result<std::optional<ShareBudget>> parse_quality(std::string_view text) {
     return fail(ErrorCode::usage, fmt::format("expected draft, fast or full, found '{}'", text));
 }
 
-Result<double> parse_percent(std::string_view text) {
-    const auto number = parse_float(text.substr(0, text.size() - (text.ends_with('%') ? 1 : 0)), 0, 100);
-    if (!number || !(*number > 0.0f && *number < 100.0f))
-        return fail(ErrorCode::usage, fmt::format("expected a number of percent above 0 and below 100, as 99.9, found '{}'", text));
-    return static_cast<double>(*number);
-}
-
 Result<void> check_film_options(const FilmOptions& options, const std::string& output) {
     if (!options.wanted()) {
         if (options.fps) return fail(ErrorCode::usage, "--fps: expected together with --frames or --turntable");
-        if (options.share) return fail(ErrorCode::usage, "--share: expected together with --frames or --turntable");
+        if (options.share) return fail(ErrorCode::usage, "--share: expected together with --max-error, and with --frames or --turntable");
         return {};
     }
     if (options.time_held && options.turntable == 0)

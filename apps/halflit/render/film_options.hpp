@@ -54,9 +54,8 @@ struct FilmOptions {
     [[nodiscard]] film::FrameTime frame_time() const { return {range().step * rate().seconds, rate().frames}; }
 };
 
-/// "full", "fast" or "draft"; and a number above 0 and below 100, with or without %.
+/// "full", "fast" or "draft".
 [[nodiscard]] Result<std::optional<ShareBudget>> parse_quality(std::string_view text);
-[[nodiscard]] Result<double> parse_percent(std::string_view text);
 
 /// Refuses flags that contradict each other. output: of -o.
 [[nodiscard]] Result<void> check_film_options(const FilmOptions& options, const std::string& output);

@@ -43,14 +43,18 @@ def measure(scene, size, quality, known, options: dict) -> Dict[str, Any]:
     setup = (choose if options.get("setup") is None else kept)(scene, size, options)
     settings = settings_of(scene, setup, options)
     budget = _QUALITIES.get(quality, quality) if isinstance(quality, str) else quality
-    if isinstance(budget, str):
-        raise UsageError(f"quality: expected fast, draft, or codes and percent, found {budget!r}")
+    if isinstance(budget, str) or not isinstance(budget, (tuple, list)) or len(budget) != 2:
+        raise UsageError(f"quality: expected 'fast', 'draft', or (codes, percent), found {quality!r}")
     measured = _c.make("measured")
     measured.codes, measured.asked_percent = (real(x, "quality") for x in budget)
-    for name in () if known is None else ("percent", "probes", "outside"):
-        setattr(measured, name, known[name])
-    for name in () if known is None else _MEASURED:
-        setattr(measured, name, known["settings"][name])
+    if known is not None:
+        try:
+            for name in ("percent", "probes", "outside"):
+                setattr(measured, name, known[name])
+            for name in _MEASURED:
+                setattr(measured, name, known["settings"][name])
+        except (KeyError, TypeError) as error:
+            raise UsageError("known: expected what measure() returned") from error
     camera, execution = drawn_camera(scene._world, setup), Execution(options, scene._lock)
     with execution.calls():
         structs = map(ctypes.byref, (camera._c, settings))

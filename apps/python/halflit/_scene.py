@@ -214,9 +214,10 @@ class Scene(Geometry, Lighting):
 
         quality: "fast": 99 % of the pixels within 2 of 255 codes; "draft": 95 % within 8; or (codes, percent). The other keywords are those
         of render(). Probes, pixels that a hash chooses, are drawn in full quality and in cheaper ones, which takes about as long as a
-        picture. known: what was found for another view; the result then keeps the budget in both.
+        picture. known: what was found for another view; the result is at least as careful. Other views are not checked.
 
-        Returns {"settings": keywords for render(), "percent": the share that the probes show, with a confidence of 95 % (100: full quality),
+        Pixels of the background count. Returns {"settings": keywords for render(), in place of your own of these names ("shadow_size" 0: the
+        chosen one), "percent": the share that the probes show, with a confidence of 95 % (100: full quality),
         "probes", "outside"}:
 
             found = None

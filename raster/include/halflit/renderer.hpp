@@ -47,9 +47,10 @@ public:
     /// @}
 
     /// Finds the cheapest settings that keep a budget in this view, by probes: pixels that a hash chooses are drawn in the settings' own
-    /// quality and in cheaper ones. That takes about as long as a frame, so it is for sequences: measure some of the views, each
-    /// with what is known from those before, join the results by more_careful, and draw with with_share. The whole picture counts, whatever
-    /// the region. Fails (usage) for settings with an error budget, or an accuracy other than exact.
+    /// quality and in cheaper ones. That takes about as long as a frame, so it is for sequences: measure some of the views, and draw all
+    /// with with_share. known: what was found for other views; the result is at least as careful. Other views are not checked. The whole
+    /// picture counts, background included, whatever the region. Fails (usage) for settings with an error budget, or an accuracy other than
+    /// exact.
     [[nodiscard]] HALFLIT_API Result<MeasuredShare> measure(const PreparedScene& scene, const Lighting& light, const Camera& camera,
                                                             const Settings& settings, const ShareBudget& budget, int width, int height,
                                                             const MeasuredShare* known = nullptr, const Execution& execution = {});
@@ -64,10 +65,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Settings of what was measured.
+/// The settings with the measured samples, anisotropy and shadow size.
 [[nodiscard]] HALFLIT_API Settings with_share(Settings settings, const MeasuredShare& measured);
-/// What keeps the share in two views of a scene.
-[[nodiscard]] HALFLIT_API MeasuredShare more_careful(const MeasuredShare& a, const MeasuredShare& b);
 
 /// @{
 /// Draws one picture with a temporary Renderer.

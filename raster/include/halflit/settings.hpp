@@ -37,7 +37,7 @@ struct Settings {
     /// Texels on a side of a shadow map, a multiple of 64 from 64 to 4096; a cube's faces have half. 0: three for two pixels of
     /// what is seen, from 256 to twice the picture's longer side, at most 2048.
     int shadow_size = 0;
-    std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; shadow maps are halved in size until all fit
+    std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; the largest shadow maps are halved until all fit
     /// points of a light that has a shadow_radius, each with maps of half that side: 4 to 64
     int soft_shadow_maps = 16;
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap

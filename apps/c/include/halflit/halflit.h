@@ -740,7 +740,8 @@ typedef struct halflit_measured {
 HALFLIT_C_API int32_t halflit_measured_init(halflit_measured* measured, size_t size);
 /// Finds the cheapest settings that keep the budget in `measured` for a picture of width x height, by probes: pixels that a hash chooses
 /// are drawn in the given settings and in cheaper ones. That takes about as long as a frame, so it is for sequences: call it for some of
-/// the views with one halflit_measured, which then keeps the budget in all of them, and draw with its samples, anisotropy and shadow_size.
+/// the views with one halflit_measured, which becomes as careful as the most demanding of them, and draw with its samples, anisotropy and
+/// shadow_size. Other views are not checked.
 /// Fails (usage) for settings with an error budget, or an accuracy other than exact.
 HALFLIT_C_API int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting,
                                       const halflit_camera* camera, const halflit_settings* settings, int32_t width, int32_t height,
