@@ -400,10 +400,15 @@ Result<MeasuredShare> Renderer::measure(const PreparedScene& scene, const Lighti
         if (known != nullptr) {
             if (known->asked.codes != budget.codes || known->asked.percent != budget.percent)
                 return fail(ErrorCode::usage, "measure: what is known is of another budget");
+            constexpr int kMostProbes = 1'000'000'000;
+            if (known->probes < 1 || known->probes > kMostProbes || known->outside < 0 || known->outside > known->probes ||
+                !(known->percent >= 0.0 && known->percent <= 100.0))
+                return fail(ErrorCode::usage, "measure: what is known has impossible numbers");
             if (auto ok = check_settings(with_share(settings, *known), width, height); !ok) return tl::unexpected<Error>(ok.error());
         }
         auto found = Measuring(scene.data(), light, camera, budget, width, height, execution, *isa).measure(settings, known);
         if (found && known != nullptr) *found = more_careful(*known, *found);
+        if (found && with_share(settings, *found) == settings) found->percent = 100.0;
         return found;
     });
 }

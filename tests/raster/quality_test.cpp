@@ -189,6 +189,7 @@ TEST_CASE("quality: what is known of other views is tried first, and both keep t
     MeasuredShare full = fresh;
     full.samples = shot.settings.samples, full.anisotropy = shot.settings.shading.anisotropy, full.shadow_size = 0;
     CHECK(with_share(shot.settings, measure(&full)) == shot.settings);
+    CHECK(measure(&full).percent == 100.0);
     // A picture after that is one of the settings.
     CHECK(codes_of(shot, with_share(shot.settings, fresh)) != codes_of(shot, shot.settings));
 }
@@ -211,8 +212,12 @@ TEST_CASE("quality: wrong budgets and settings are refused", "[raster][quality]"
     settings.shading.accuracy = Accuracy::reference;
     CHECK(fails(kFastQuality, settings));
     // What is known must be possible, and of the same budget.
-    for (const MeasuredShare& known :
-         {MeasuredShare{}, MeasuredShare{kFastQuality, 99.5, 512, 1, 1000, 1, 0}, MeasuredShare{kDraftQuality, 99.5, 512, 1, 1, 1, 0}}) {
+    for (const MeasuredShare& known : {MeasuredShare{},
+                                       MeasuredShare{kFastQuality, 99.5, 512, 1, 1000, 1, 0},
+                                       MeasuredShare{kDraftQuality, 99.5, 512, 1, 1, 1, 0},
+                                       {kFastQuality, NAN, 512, 1, 1, 1, 0},
+                                       {kFastQuality, 99.5, 512, 513, 1, 1, 0},
+                                       {kFastQuality, 99.5, 2147483647, 1, 1, 1, 0}}) {
         const auto out = renderer.measure(*prepared, shot.scene, shot.camera, shot.settings, kFastQuality, 64, 64, &known);
         REQUIRE_FALSE(out);
         CHECK(out.error().code == ErrorCode::usage);

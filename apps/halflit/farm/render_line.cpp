@@ -147,8 +147,9 @@ Command render_table(RenderLine& o) {
            read_int(o.film.turntable, 1, 100000)},
           {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.film.dither)},
           {"--quality", "draft|fast|full",
-           "draft: at least 95 % of the picture's pixels are within 8 codes of full quality; fast: 99 % within 2, which saves little. The "
-           "settings that keep this are found by probes in three frames; one picture alone has full quality (default full)",
+           "draft: 95 % of the picture's pixels are within 8 codes of full quality in three frames that are probed; fast: 99 % within 2, "
+           "which saves little; "
+           "other frames are not checked; one picture alone has full quality (default full)",
            parsed(o.film.quality, parse_quality)},
           {"--share", "PERCENT",
            "With --max-error and --turntable or --frames: so many of the pixels are within it, measured as --quality is instead of proven",

@@ -49,6 +49,8 @@ def measure(scene, size, quality, known, options: dict) -> Dict[str, Any]:
     measured.codes, measured.asked_percent = (real(x, "quality") for x in budget)
     if known is not None:
         try:
+            if tuple(known["asked"]) != (measured.codes, measured.asked_percent):
+                raise UsageError(f"known: expected what was measured for {quality!r}, found that for {tuple(known['asked'])}")
             for name in ("percent", "probes", "outside"):
                 setattr(measured, name, known[name])
             for name in _MEASURED:
@@ -59,7 +61,8 @@ def measure(scene, size, quality, known, options: dict) -> Dict[str, Any]:
     with execution.calls():
         structs = map(ctypes.byref, (camera._c, settings))
         _c.call("measure", renderer_of(scene, execution), scene._handle, setup._lighting, *structs, *setup.size, ctypes.byref(measured))
-    found = {name: getattr(measured, name) for name in ("percent", "probes", "outside")}
+    found: Dict[str, Any] = {name: getattr(measured, name) for name in ("percent", "probes", "outside")}
+    found["asked"] = (measured.codes, measured.asked_percent)
     found["settings"] = {name: getattr(measured, name) for name in _MEASURED}
     return found
 

@@ -60,7 +60,7 @@ class PictureOptions(ViewOptions, total=False):
         max_error: error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full
             texture filters and exact arithmetic alone; 0: none (0)
         environment_tolerance: of bands that are left out, relative to white, in linear light; half an 8-bit code (1/510)
-        shadow_memory_limit: bytes; shadow maps are halved in size until all fit (256 MiB)
+        shadow_memory_limit: bytes; the largest shadow maps are halved until all fit (256 MiB)
         samples: per pixel: 1, 4, 8 or 16 (4)
         tone_curve: from light to codes, for each sample, after exposure; pictures of floats and the background colour do without:
             "none", "reinhard", "aces", "neutral" (neutral)

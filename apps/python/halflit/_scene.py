@@ -218,7 +218,8 @@ class Scene(Geometry, Lighting):
 
         Pixels of the background count. Returns {"settings": keywords for render(), in place of your own of these names ("shadow_size" 0: the
         chosen one), "percent": the share that the probes show, with a confidence of 95 % (100: full quality),
-        "probes", "outside"}:
+        "probes", "outside",
+        "asked"}:
 
             found = None
             for azimuth in (0, 120, 240):

@@ -524,7 +524,7 @@ typedef struct halflit_settings {
     double max_error_codes;
     /// of bands that are left out, relative to white, in linear light; half an 8-bit code (1/510)
     double environment_tolerance;
-    /// bytes; shadow maps are halved in size until all fit (256 MiB)
+    /// bytes; the largest shadow maps are halved until all fit (256 MiB)
     uint64_t shadow_memory_limit;
     halflit_region region;           ///< the part to draw; pixels outside are not touched (all)
     float background[4];             ///< alpha 0 is transparent, not premultiplied (0, 0, 0, 0)
