@@ -47,13 +47,15 @@ struct WorkCounts {
 
 /// A budget that is measured: a share of the pixels, in percent, is within some 8-bit codes of the picture in full quality.
 struct ShareBudget {
-    double codes = 2, percent = 99;
+    double codes = 2;     ///< 0 to 255
+    double percent = 99;  ///< above 0 and below 100
 };
-inline constexpr ShareBudget kFastQuality{2, 99}, kDraftQuality{8, 95};
+inline constexpr ShareBudget kFastQuality{2, 99};   ///< --quality fast
+inline constexpr ShareBudget kDraftQuality{8, 95};  ///< --quality draft
 
 /// The cheapest settings that keep a ShareBudget, and how far probes show that they do.
 struct MeasuredShare {
-    ShareBudget asked;
+    ShareBudget asked;  ///< the budget
     double percent =
         100;  ///< share that the probes show, with a confidence of 95 % in each view; 100: the settings are those of full quality
     int probes = 0, outside = 0;                       ///< pixels that were chosen, and those of them outside; of several views together
