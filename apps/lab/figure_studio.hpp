@@ -12,7 +12,7 @@ namespace halflit::cli {
 struct Shot {
     Scene scene{};
     Camera camera{};
-    Settings settings{};
+    Settings settings{.shadow_size = 2048};  ///< figures show formulas, not the size of texels
     int width = 300, height = 300;
 };
 
