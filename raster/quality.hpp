@@ -18,6 +18,7 @@ struct QualityFacts {
     bool textures = false;  ///< some material has one
     int shadow_size = 0;    ///< texels on a side of all shadow maps; 0: there are none, or they differ
 };
+
 /// One setting that is cheaper than in full quality.
 struct CheaperPart {
     enum class Kind : std::uint8_t { samples, textures, shadows } kind;
@@ -42,12 +43,12 @@ class PixelMask {
 public:
     PixelMask(int width_px, int height_px)
         : stride_((width_px + 63) / 64), bits_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_px)) {}
-    void add(int x_px, int y_px) { word(x_px, y_px) |= std::uint64_t{1} << (x_px & 63); }
-    [[nodiscard]] bool has(int x_px, int y_px) const { return (row(x_px, y_px) >> (x_px & 63) & 1u) != 0; }
+    void add(int x_px, int y_px) { bits_[index(x_px, y_px)] |= std::uint64_t{1} << (x_px & 63); }
+    [[nodiscard]] bool has(int x_px, int y_px) const { return (word(x_px, y_px) >> (x_px & 63) & 1u) != 0; }
     [[nodiscard]] bool has_any(int x_px, int y_px, int count) const {
         for (int i = 0; i < count;) {
             const int step = std::min(count - i, 64 - ((x_px + i) & 63));
-            const std::uint64_t part = row(x_px + i, y_px) >> ((x_px + i) & 63);
+            const std::uint64_t part = word(x_px + i, y_px) >> ((x_px + i) & 63);
             if ((step == 64 ? part : part & ((std::uint64_t{1} << step) - 1u)) != 0) return true;
             i += step;
         }
@@ -55,12 +56,10 @@ public:
     }
 
 private:
-    std::uint64_t& word(int x_px, int y_px) {
-        return bits_[static_cast<std::size_t>(y_px) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x_px >> 6)];
+    [[nodiscard]] std::size_t index(int x_px, int y_px) const {
+        return static_cast<std::size_t>(y_px) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x_px >> 6);
     }
-    [[nodiscard]] std::uint64_t row(int x_px, int y_px) const {
-        return bits_[static_cast<std::size_t>(y_px) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x_px >> 6)];
-    }
+    [[nodiscard]] std::uint64_t word(int x_px, int y_px) const { return bits_[index(x_px, y_px)]; }
     int stride_;
     std::vector<std::uint64_t> bits_;
 };

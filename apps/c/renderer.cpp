@@ -191,8 +191,8 @@ int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, 
         const DrawingScene drawing(*scene);
         if (auto ok = scene->prepare(renderer->execution); !ok) return ok;
         std::optional<Lighting> moved;
-        const auto found = renderer->renderer.measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->drawn(*from), *how,
-                                                      known.asked, width, height, is_known ? &known : nullptr, renderer->execution);
+        const auto found = Renderer::measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->drawn(*from), *how,
+                                             known.asked, width, height, is_known ? &known : nullptr, renderer->execution);
         if (!found) return tl::unexpected<Error>(found.error());
         halflit_measured out = *given;
         out.percent = found->percent, out.probes = found->probes, out.outside = found->outside;

@@ -189,6 +189,12 @@ std::string trade_flags(const TradeChoice& choice, const TradeSpace& space) {
     return flags;
 }
 
+int settings_varied(const TradeChoice& choice, const TradeSpace& space) {
+    int count = 0;
+    describe(choice, space, [&](const std::string&, const std::string&) { ++count; });
+    return count;
+}
+
 void apply_choice(Settings& settings, const TradeChoice& choice) {
     settings.shading.accuracy = choice.accuracy;
     settings.shading.max_error_codes = choice.max_error_codes;

@@ -62,6 +62,9 @@ enum class TradeExtent : std::uint8_t {
 /// Flags to add to a `halflit render` command: "--sh-order 3 --shading gouraud". Empty for exact.
 [[nodiscard]] std::string trade_flags(const TradeChoice& choice, const TradeSpace& space);
 
+/// Number of settings that differ from exact.
+[[nodiscard]] int settings_varied(const TradeChoice& choice, const TradeSpace& space);
+
 /// Puts everything but the lobe into the frame's settings.
 void apply_choice(Settings& settings, const TradeChoice& choice);
 

@@ -155,7 +155,7 @@ std::vector<std::string> trade_verdict(const std::vector<TradeRow>& rows, const 
     double frames = 0;
     for (const TradeRow& row : rows) {
         if (row.choice.lobe || row.choice.accuracy == Accuracy::reference || &row == &exact) continue;
-        const bool alone = row.name.find(", ") == std::string::npos;
+        const bool alone = settings_varied(row.choice, space) == 1;
         if (alone && row.error.p999 > exact.error.p999 + kFree && row.ratio > 0.97) wasted += (wasted.empty() ? "" : "; ") + row.name;
         const double gain = 1.0 - row.ratio, noise = std::max(row.ratio_max - row.ratio, 1.0 - exact.ratio_min);
         if (row.ratio < 0.97 && !surely_cheaper(row, exact)) {

@@ -7,10 +7,6 @@
 namespace halflit::raster {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-HALFLIT_INLINE const ScreenVertex& vertex_of(const TriangleSource& source, std::uint32_t v) {
-    return (v & kClipVertex) ? source.clip_vertices[v & ~kClipVertex] : source.vertices[v];
-}
-
 HALFLIT_INLINE const TriangleSource& source_of(const TriangleTable& table, std::uint32_t id) {
     return table.chunks[id >> table.local_bits];
 }

@@ -143,6 +143,11 @@ struct TriangleSource {
     std::uint32_t id_base;              ///< triangle id = id_base + index of the record
 };
 
+/// A corner of one of its triangles.
+HALFLIT_INLINE const ScreenVertex& vertex_of(const TriangleSource& source, std::uint32_t v) {
+    return (v & kClipVertex) ? source.clip_vertices[v & ~kClipVertex] : source.vertices[v];
+}
+
 /// The box of pixels that `cover` looked at, relative to the tile; empty when x1 < x0.
 struct CoverBox {
     int x0, y0, x1, y1;

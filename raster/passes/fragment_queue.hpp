@@ -15,6 +15,18 @@
 
 namespace halflit::raster {
 
+/// Leaves the fragments of a row for whose index `keep` is true.
+template <class Keep>
+void keep_fragments(PixelFragments& row, const Keep& keep) {
+    int kept = 0;
+    for (int i = 0; i < row.count; ++i) {
+        const bool stays = keep(i);
+        row.id[kept] = row.id[i], row.x_px[kept] = row.x_px[i], row.samples[kept] = row.samples[i];
+        kept += stays ? 1 : 0;
+    }
+    row.count = kept;
+}
+
 /// Fragments of one material, at most a block.
 struct FragmentList {
     /// Room behind a full list, as whole rows of fragments are copied.

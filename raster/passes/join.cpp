@@ -8,10 +8,6 @@
 namespace halflit::raster {
 namespace {
 
-const ScreenVertex& vertex_of(const TriangleSource& source, std::uint32_t vertex) {
-    return vertex & kClipVertex ? source.clip_vertices[vertex & ~kClipVertex] : source.vertices[vertex];
-}
-
 /// Decides which triangles that a pixel shows are parts of one smooth surface there.
 class Surfaces {
 public:
@@ -62,14 +58,12 @@ private:
         const float* record[3];
         int floats;  ///< of a record
 
-        Triangle(const Surfaces& of, const TriangleRecord& triangle, std::size_t chunk)
-            : floats(of.records_.stride(triangle.draw_and_back >> 1)) {
+        Triangle(const Surfaces& of, const TriangleRecord& triangle, std::size_t chunk) {
+            const std::size_t draw = triangle.draw_and_back >> 1;
+            floats = of.records_.stride(draw);
             for (int k = 0; k < 3; ++k) {
-                const std::uint32_t v = triangle.vertex[k];
-                screen[k] = &vertex_of(of.geometry_.source(chunk), v);
-                record[k] = v & kClipVertex
-                                ? of.records_.clip_records()[chunk] + static_cast<std::int64_t>(v & ~kClipVertex) * shading::kVertexFloats
-                                : of.records_.draws()[triangle.draw_and_back >> 1].of(v, floats);
+                screen[k] = &vertex_of(of.geometry_.source(chunk), triangle.vertex[k]);
+                record[k] = of.records_.of_corner(chunk, draw, triangle.vertex[k]);
             }
         }
         /// Covers so many pixels that what is interpolated hardly changes within one.
@@ -89,10 +83,12 @@ private:
         if (a.floats <= shading::kNormalX + 2) return true;  // no light, no normals
         const auto product = [](const float* m, const float* n) { return (m[0] * n[0] + m[1] * n[1]) + m[2] * n[2]; };
         const float* normal[5];  // the common corners first, then the others
-        int commons = 0, count = 0;
-        for (int pass = 0; pass < 2; ++pass, commons = pass == 1 ? count : commons)
-            for (unsigned k = 0; k < 3; ++k)
-                if ((common >> k & 1u) == (pass == 0 ? 1u : 0u)) normal[count++] = a.record[k] + shading::kNormalX;
+        int count = 0;
+        for (unsigned k = 0; k < 3; ++k)
+            if ((common >> k & 1u) != 0) normal[count++] = a.record[k] + shading::kNormalX;
+        const int commons = count;
+        for (unsigned k = 0; k < 3; ++k)
+            if ((common >> k & 1u) == 0) normal[count++] = a.record[k] + shading::kNormalX;
         for (const float* record : b.record) {
             bool known = false;
             for (int i = 0; i < commons; ++i) known |= record + shading::kNormalX == normal[i];
@@ -179,12 +175,7 @@ void PictureTile::join(PixelFragments& row, int y_px) const {
         any |= join_pixel(surfaces, row.id + first, row.samples + first, end - first, x_px, y_px);
     }
     if (!any) return;
-    int kept = 0;
-    for (int i = 0; i < row.count; ++i) {
-        row.id[kept] = row.id[i], row.x_px[kept] = row.x_px[i], row.samples[kept] = row.samples[i];
-        kept += static_cast<int>(row.samples[i] != 0);
-    }
-    row.count = kept;
+    keep_fragments(row, [&](int i) { return row.samples[i] != 0; });
 }
 
 }  // namespace halflit::raster

@@ -38,8 +38,8 @@ public:
 private:
     // shade.cpp
     void shade_visible();
-    void keep_only(PixelFragments& row, int y_px) const;
-    void collect(int y, int x0, int x1);  ///< sorts the fragments of a row of pixels into lists
+    void keep_only(PixelFragments& row, int y_px) const;  ///< the pixels of PicturePass::only
+    void collect(int y, int x0, int x1);                  ///< sorts the fragments of a row of pixels into lists
     void sort(const PixelFragments& row, int y_px);
     [[nodiscard]] int material_of(std::uint32_t id);
     void flush_full(FragmentList*& list);  ///< leaves an empty one in its place

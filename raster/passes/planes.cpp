@@ -50,7 +50,7 @@ void PictureTile::write_planes(bool empty) {
 }
 
 void PictureTile::write_surface(FragmentList list) {
-    // A joined fragment is of the largest triangle; the planes are of the first sample's.
+    // A joined fragment is of the largest triangle; the planes are of the first sample's. The list is a copy: shading reads the other one.
     for (int l = 0; l < list.count; ++l)
         if ((list.samples[l] & 1) != 0)
             list.id[l] = scratch_.buffers.triangle[0][(list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x)];

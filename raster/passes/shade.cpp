@@ -71,14 +71,9 @@ void PictureTile::collect(int y, int x0, int x1) {
 }
 
 void PictureTile::keep_only(PixelFragments& row, int y_px) const {
-    int kept = 0;
-    for (int i = 0; i < row.count; ++i) {
-        row.id[kept] = row.id[i], row.x_px[kept] = row.x_px[i], row.samples[kept] = row.samples[i];
-        kept += pass_.only->has(row.x_px[i], y_px) ? 1 : 0;
-    }
-    row.count = kept;
+    keep_fragments(row, [&](int i) { return pass_.only->has(row.x_px[i], y_px); });
     row.pixels = 0;
-    for (int i = 0; i < kept; ++i) row.pixels += i == 0 || row.x_px[i] != row.x_px[i - 1] ? 1 : 0;
+    for (int i = 0; i < row.count; ++i) row.pixels += i == 0 || row.x_px[i] != row.x_px[i - 1] ? 1 : 0;
 }
 
 void PictureTile::sort(const PixelFragments& row, int y_px) {

@@ -32,22 +32,14 @@ void finish_lanes(FragmentBlock& block, int count) {
 
 Vec3f row3(const FragmentBlock& block, int row, int l) { return {block.lane[row][l], block.lane[row + 1][l], block.lane[row + 2][l]}; }
 
-const float* vertex_record(const TilePass& pass, std::uint32_t id, const TriangleRecord& triangle, int k) {
-    const std::uint32_t v = triangle.vertex[k];
-    if (v & kClipVertex)
-        return pass.records.clip_records()[pass.geometry.chunk_of(id)] +
-               static_cast<std::size_t>(v & ~kClipVertex) * shading::kVertexFloats;
-    const std::size_t draw = triangle.draw_and_back >> 1;
-    return pass.records.draws()[draw].of(v, pass.records.stride(draw));
-}
-
 /// Loads a triangle into lane `l`: the mean of its vertices, with the normal of its plane on the viewer's side.
 void load_triangle(const TilePass& pass, std::uint32_t id, shading::SlotMask slots, FragmentBlock& block, int l) {
     const TriangleRecord& triangle = pass.geometry.record(id);
+    const std::size_t chunk = pass.geometry.chunk_of(id), draw = triangle.draw_and_back >> 1;
     const float* v[3];
-    for (int k = 0; k < 3; ++k) v[k] = vertex_record(pass, id, triangle, k);
+    for (int k = 0; k < 3; ++k) v[k] = pass.records.of_corner(chunk, draw, triangle.vertex[k]);
     float mean[shading::kVertexFloats];
-    const int stride = pass.records.stride(triangle.draw_and_back >> 1);
+    const int stride = pass.records.stride(draw);
     for (int j = 0; j < stride; ++j) mean[j] = ((v[0][j] + v[1][j]) + v[2][j]) * (1.0f / 3.0f);
     load_lane(block, l, mean, slots);
     const Vec3f p0{v[0][0], v[0][1], v[0][2]}, p1{v[1][0], v[1][1], v[1][2]}, p2{v[2][0], v[2][1], v[2][2]};

@@ -21,6 +21,12 @@ public:
     [[nodiscard]] const DrawRecords* draws() const { return draw_records_.data(); }
     [[nodiscard]] const float* const* clip_records() const { return clip_records_.data(); }
 
+    /// Record of a triangle's corner. chunk: the triangle's.
+    [[nodiscard]] const float* of_corner(std::size_t chunk, std::size_t draw, std::uint32_t vertex) const {
+        if (vertex & kClipVertex) return clip_records_[chunk] + static_cast<std::size_t>(vertex & ~kClipVertex) * shading::kVertexFloats;
+        return draw_records_[draw].of(vertex, strides_[draw]);
+    }
+
     /// Record of a vertex of a draw; vertex: number within the mesh. A caller that writes to it must call changed().
     [[nodiscard]] float* record(std::size_t draw, std::int64_t vertex) {
         return records_.data() + record_bases_[draw] + vertex * strides_[draw];

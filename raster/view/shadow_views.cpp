@@ -43,11 +43,14 @@ void set_rows(ShadowMapPlan& map, const ViewAxes& axes, Vec3d eye, double half) 
     set_row(map.rows[2], forward, -dot(forward, eye));
 }
 
+double distance_to_middle(const LightPlan& light, const Bounds& bounds) {
+    return length(to_double(light.position) - to_double(bounds.center()));
+}
+
 /// True if the light's range reaches the scene's bounds.
 bool reaches(const LightPlan& light, const Bounds& bounds) {
     if (!kind_of(light.type).placed || light.inv_range_squared == 0.0f) return true;
-    const Vec3f c = bounds.center();
-    const double distance = length(to_double(light.position) - Vec3d{c.x, c.y, c.z}) - bounds.radius();
+    const double distance = distance_to_middle(light, bounds) - bounds.radius();
     return distance <= 0.0 || distance * distance * light.inv_range_squared < 1.0;
 }
 
@@ -143,9 +146,7 @@ int side_for(const Choice& choice, const LightPlan& light, const Bounds& bounds,
         width = rung ? ladder_width(choice.view, *rung) : 0.0;
     } else {
         const bool cube = choice.kind == ShadowMapPlan::Kind::cube;
-        const Vec3f c = bounds.center();
-        const double distance = length(Vec3d{c.x, c.y, c.z} - to_double(light.position));
-        width *= (cube ? 2.0 : choice.view.half) * std::max(distance, double{bounds.radius()});
+        width *= (cube ? 2.0 : choice.view.half) * std::max(distance_to_middle(light, bounds), double{bounds.radius()});
     }
     int side = kLeastShadowSize;
     for (int step = kShadowSizeStep; side < sizes.most && !(side * texel >= width); side += step)

@@ -40,8 +40,8 @@ std::vector<Patch> patches(const Environment& environment) {
         const int end_y = std::min(y + step_y, rows);
         for (int x = 0; x < columns; x += step_x) {
             const int end_x = std::min(x + step_x, columns);
-            Vec3d light{}, direction{}, dark{};
-            double weight = 0.0, angle = 0.0;
+            Vec3d light{}, direction{};
+            double weight = 0.0;
             for (int j = y; j < end_y; ++j) {
                 // Integrals over the cut of a row: of the solid angle, and of the direction's part along y and across it.
                 const double top = kPi * j / rows, bottom = kPi * (j + 1) / rows, middle = 0.5 * (top + bottom);
@@ -55,14 +55,14 @@ std::vector<Patch> patches(const Environment& environment) {
                     const double share = solid_angle * ((color.x + color.y) + color.z);
                     light = light + color * (solid_angle / kPi);
                     direction = direction + mean * share, weight += share;
-                    dark = dark + mean * solid_angle, angle += solid_angle;
                 }
             }
+            if (!(weight > 0.0)) continue;  // black
             const double middle = kPi * (0.5 * (y + end_y)) / rows, half_width = 0.5 * width_rad * (end_x - x) * std::sin(middle);
             const Vec3d level = sh::equirect_direction(0.5 * (x + end_x) / columns, 0.5);
             const Vec3d down{level.x * std::cos(middle), -std::sin(middle), level.z * std::cos(middle)}, side{-level.z, 0.0, level.x};
-            out.push_back({turn * (weight > 0.0 ? direction * (1.0 / weight) : dark * (1.0 / angle)), light,
-                           turn * (down * (0.5 * kPi * (end_y - y) / rows)), turn * (side * half_width)});
+            out.push_back(
+                {turn * (direction * (1.0 / weight)), light, turn * (down * (0.5 * kPi * (end_y - y) / rows)), turn * (side * half_width)});
         }
     }
     return out;

@@ -7,6 +7,7 @@
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -25,6 +26,18 @@ inline Picture draw(const Scene& scene, const Settings& settings, int width, int
     const auto report = render(scene, camera_flat(), settings, {width, height, picture.codes.data(), picture.linear.data()}, execution);
     REQUIRE(report);
     return picture;
+}
+
+/// The largest difference, in linear light, between the kernels' picture and that of Accuracy::reference.
+inline double off_reference(const Scene& scene, int width, int height) {
+    Settings settings;
+    const Picture exact = draw(scene, settings, width, height);
+    settings.shading.accuracy = Accuracy::reference;
+    const Picture reference = draw(scene, settings, width, height);
+    double worst = 0;
+    for (std::size_t i = 0; i < exact.linear.size(); ++i)
+        worst = std::max(worst, std::abs(double{exact.linear[i]} - double{reference.linear[i]}));
+    return worst;
 }
 
 /// Checks that each instruction set, some sizes of tiles and numbers of threads draw this picture.

@@ -47,8 +47,7 @@ Claims check_claims(int scenes, const ShareBudget& budget) {
         const Shot shot = random_shot(7000 + static_cast<std::uint64_t>(seed));
         const auto prepared = PreparedScene::make(shot.scene);
         REQUIRE(prepared);
-        Renderer renderer;
-        const auto measured = renderer.measure(*prepared, shot.scene, shot.camera, shot.settings, budget, kWidth, kHeight);
+        const auto measured = Renderer::measure(*prepared, shot.scene, shot.camera, shot.settings, budget, kWidth, kHeight);
         INFO("seed " << seed << (measured ? std::string() : measured.error().message));
         REQUIRE(measured);
         const Settings cheaper = with_share(shot.settings, *measured);
@@ -152,8 +151,7 @@ TEST_CASE("quality: every set, thread count and tile size makes the same choice"
         const auto prepared = PreparedScene::make(shot.scene);
         REQUIRE(prepared);
         const auto measure = [&](const Execution& execution) {
-            Renderer renderer;
-            auto out = renderer.measure(*prepared, shot.scene, shot.camera, shot.settings, kDraftQuality, 200, 150, nullptr, execution);
+            auto out = Renderer::measure(*prepared, shot.scene, shot.camera, shot.settings, kDraftQuality, 200, 150, nullptr, execution);
             REQUIRE(out);
             return *out;
         };
@@ -174,9 +172,8 @@ TEST_CASE("quality: what is known of other views is tried first, and both keep t
     const Shot shot = random_shot(9100);
     const auto prepared = PreparedScene::make(shot.scene);
     REQUIRE(prepared);
-    Renderer renderer;
     const auto measure = [&](const MeasuredShare* known) {
-        auto out = renderer.measure(*prepared, shot.scene, shot.camera, shot.settings, kDraftQuality, 200, 150, known);
+        auto out = Renderer::measure(*prepared, shot.scene, shot.camera, shot.settings, kDraftQuality, 200, 150, known);
         REQUIRE(out);
         return *out;
     };
@@ -198,9 +195,8 @@ TEST_CASE("quality: wrong budgets and settings are refused", "[raster][quality]"
     const Shot shot = random_shot(9200);
     const auto prepared = PreparedScene::make(shot.scene);
     REQUIRE(prepared);
-    Renderer renderer;
     const auto fails = [&](const ShareBudget& budget, const Settings& settings) {
-        const auto out = renderer.measure(*prepared, shot.scene, shot.camera, settings, budget, 64, 64);
+        const auto out = Renderer::measure(*prepared, shot.scene, shot.camera, settings, budget, 64, 64);
         return !out && out.error().code == ErrorCode::usage;
     };
     for (const ShareBudget& budget : {ShareBudget{-1, 99}, {256, 99}, {NAN, 99}, {2, 0}, {2, 100}, {2, NAN}})
@@ -218,17 +214,17 @@ TEST_CASE("quality: wrong budgets and settings are refused", "[raster][quality]"
                                        {kFastQuality, NAN, 512, 1, 1, 1, 0},
                                        {kFastQuality, 99.5, 512, 513, 1, 1, 0},
                                        {kFastQuality, 99.5, 2147483647, 1, 1, 1, 0}}) {
-        const auto out = renderer.measure(*prepared, shot.scene, shot.camera, shot.settings, kFastQuality, 64, 64, &known);
+        const auto out = Renderer::measure(*prepared, shot.scene, shot.camera, shot.settings, kFastQuality, 64, 64, &known);
         REQUIRE_FALSE(out);
         CHECK(out.error().code == ErrorCode::usage);
     }
     // Limits hold, and all drawings count.
-    const auto slow = renderer.measure(*prepared, shot.scene, shot.camera, shot.settings, kFastQuality, 256, 256, nullptr,
-                                       {.threads = 1, .time_limit_s = 1e-7});
+    const auto slow = Renderer::measure(*prepared, shot.scene, shot.camera, shot.settings, kFastQuality, 256, 256, nullptr,
+                                        {.threads = 1, .time_limit_s = 1e-7});
     REQUIRE_FALSE(slow);
     CHECK(slow.error().code == ErrorCode::limit);
-    const auto small = renderer.measure(*prepared, shot.scene, shot.camera, shot.settings, kFastQuality, 256, 256, nullptr,
-                                        {.threads = 1, .memory_limit = 1000});
+    const auto small = Renderer::measure(*prepared, shot.scene, shot.camera, shot.settings, kFastQuality, 256, 256, nullptr,
+                                         {.threads = 1, .memory_limit = 1000});
     REQUIRE_FALSE(small);
     CHECK(small.error().code == ErrorCode::limit);
 }

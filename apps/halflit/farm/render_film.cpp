@@ -202,7 +202,7 @@ private:
         for (std::int64_t k = 0; k < std::min(all, kFrames); ++k) {
             Camera camera = job_->camera;
             if (const auto moved = move_to(k * all / kFrames, camera); !moved) return moved;
-            const auto one = renderer_.measure(*job_->prepared, job_->light, camera, job_->settings, *options_.film.quality, job_->width,
+            const auto one = Renderer::measure(*job_->prepared, job_->light, camera, job_->settings, *options_.film.quality, job_->width,
                                                job_->height, k == 0 ? nullptr : &measured_, job_->timed_execution());
             if (!one) return fail(one.error().code, fmt::format("{}: {}", job_->source.name, one.error().message));
             measured_ = *one;
@@ -336,7 +336,7 @@ Result<void> settle_quality(PictureOptions& options) {
     double& codes = options.settings.shading.max_error_codes;
     if (film.share) {
         if (film.quality) return fail(ErrorCode::usage, "--share: cannot be combined with --quality");
-        if (!(codes > 0.0)) return fail(ErrorCode::usage, "--share: expected together with --max-error, and with --frames or --turntable");
+        if (!(codes > 0.0)) return fail(ErrorCode::usage, kShareNeeds);
         film.quality = ShareBudget{codes, *film.share};
         codes = 0.0;
     }

@@ -78,7 +78,7 @@ Result<std::optional<ShareBudget>> parse_quality(std::string_view text) {
 Result<void> check_film_options(const FilmOptions& options, const std::string& output) {
     if (!options.wanted()) {
         if (options.fps) return fail(ErrorCode::usage, "--fps: expected together with --frames or --turntable");
-        if (options.share) return fail(ErrorCode::usage, "--share: expected together with --max-error, and with --frames or --turntable");
+        if (options.share) return fail(ErrorCode::usage, kShareNeeds);
         return {};
     }
     if (options.time_held && options.turntable == 0)

@@ -54,6 +54,8 @@ struct FilmOptions {
     [[nodiscard]] film::FrameTime frame_time() const { return {range().step * rate().seconds, rate().frames}; }
 };
 
+/// Error of a --share without what it needs.
+inline constexpr const char* kShareNeeds = "--share: expected together with --max-error, and with --frames or --turntable";
 /// "full", "fast" or "draft".
 [[nodiscard]] Result<std::optional<ShareBudget>> parse_quality(std::string_view text);
 

@@ -51,9 +51,10 @@ public:
     /// with with_share. known: what was found for other views; the result is at least as careful. Other views are not checked. The whole
     /// picture counts, background included, whatever the region. Fails (usage) for settings with an error budget, or an accuracy other than
     /// exact.
-    [[nodiscard]] HALFLIT_API Result<MeasuredShare> measure(const PreparedScene& scene, const Lighting& light, const Camera& camera,
-                                                            const Settings& settings, const ShareBudget& budget, int width, int height,
-                                                            const MeasuredShare* known = nullptr, const Execution& execution = {});
+    [[nodiscard]] HALFLIT_API static Result<MeasuredShare> measure(const PreparedScene& scene, const Lighting& light, const Camera& camera,
+                                                                   const Settings& settings, const ShareBudget& budget, int width,
+                                                                   int height, const MeasuredShare* known = nullptr,
+                                                                   const Execution& execution = {});
 
     /// Drops the plan, light distances, shadow maps and geometry of earlier frames. Keeps their memory, and results that depend on an
     /// environment or a material alone. The next frame does the same work as after a change of the whole scene's geometry.

@@ -56,8 +56,8 @@ inline constexpr ShareBudget kDraftQuality{8, 95};  ///< --quality draft
 /// The cheapest settings that keep a ShareBudget, and how far probes show that they do.
 struct MeasuredShare {
     ShareBudget asked;  ///< the budget
-    double percent =
-        100;  ///< share that the probes show, with a confidence of 95 % in each view; 100: the settings are those of full quality
+    /// share that the probes show, with a confidence of 95 % in each view; 100: the settings are those of full quality
+    double percent = 100;
     int probes = 0, outside = 0;                       ///< pixels that were chosen, and those of them outside; of several views together
     int samples = 0, anisotropy = 0, shadow_size = 0;  ///< the settings of that name
 };
