@@ -38,14 +38,14 @@ TextureRange range_of(const std::uint16_t* data, const std::vector<TextureLevel>
     for (const TextureLevel& level : levels) {
         const std::size_t row = std::size_t{4} * static_cast<std::size_t>(level.width), rows = static_cast<std::size_t>(level.height);
         const std::uint16_t* first = data + std::size_t{4} * static_cast<std::size_t>(level.offset);
-        const auto value = [=](std::size_t i) { return first[i]; };
-        accumulate(least, row * rows, smaller, value);
-        accumulate(most, row * rows, larger, value);
-        add_steps(first, first + row, row * (rows - 1));
-        add_steps(first, first + row * (rows - 1), row);
-        for (std::size_t y = 0; y < rows; ++y) {
-            add_steps(first + y * row, first + y * row + 4, row - 4);
-            add_steps(first + y * row, first + (y + 1) * row - 4, 4);
+        for (std::size_t y = 0; y < rows; ++y) {  // row by row, so that memory is read once
+            const std::uint16_t *const at = first + y * row, *const below = first + (y + 1 < rows ? (y + 1) * row : 0);
+            const auto value = [=](std::size_t i) { return at[i]; };
+            accumulate(least, row, smaller, value);
+            accumulate(most, row, larger, value);
+            add_steps(at, below, row);
+            add_steps(at, at + 4, row - 4);
+            add_steps(at, at + row - 4, 4);
         }
     }
     TextureRange range{{65535, 65535, 65535, 65535}, {}, {}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace halflit::shading {
 namespace {
@@ -12,9 +13,32 @@ struct Level {
     const std::array<float, 4>* rgba;
     int n;
 
+    Level(const std::vector<std::array<float, 4>>& values, int rows) : rgba(values.data()), n(rows) {}
     Level(const ReflectionMap& map, int level) : rgba(map.rgba.data() + map.first[level]), n(map.rows[level]) {}
     [[nodiscard]] const float* at(int column, int row) const {
         return rgba[static_cast<std::ptrdiff_t>(row) * (2 * n + 1) + column].data();
+    }
+};
+
+/// The least and the largest values of the rows and columns about each point of a level, in its layout.
+struct Surroundings {
+    std::vector<std::array<float, 4>> least, most;
+
+    explicit Surroundings(const Level& level) {
+        const int columns = 2 * level.n;
+        for (int j = 0; j <= level.n; ++j)
+            for (int i = 0; i <= columns; ++i) {
+                std::array<float, 4> low{}, high{};
+                for (int c = 0; c < 3; ++c) {
+                    low[c] = high[c] = level.at(i, j)[c];
+                    for (int y = std::max(0, j - 1); y <= std::min(level.n, j + 1); ++y)
+                        for (int x = i - 1; x <= i + 1; ++x) {
+                            const float value = level.at((x + columns) % columns, y)[c];
+                            low[c] = std::min(low[c], value), high[c] = std::max(high[c], value);
+                        }
+                }
+                least.push_back(low), most.push_back(high);
+            }
     }
 };
 
@@ -49,13 +73,15 @@ ReflectionSteps reflection_steps(const ReflectionMap& map) {
         if (k + 1 == kReflectionLevels) break;
         // A point between four values of one level lies between four of the next one, which are no more than a column and a row away.
         const Level next(map, k + 1);
+        const Surroundings about(next);
+        const Level least(about.least, next.n), most(about.most, next.n);
         const int ratio = level.n / next.n;
         for (int j = 0; j <= level.n; ++j)
             for (int i = 0; i < 2 * level.n; ++i)
-                for (int y = std::max(0, j / ratio - 1); y <= std::min(next.n, j / ratio + 1); ++y)
-                    for (int x = i / ratio - 1; x <= i / ratio + 1; ++x)
-                        for (int c = 0; c < 3; ++c)
-                            widen(out.level[k], level.at(i, j)[c], next.at((x + 2 * next.n) % (2 * next.n), y)[c], 1.0);
+                for (int c = 0; c < 3; ++c) {
+                    widen(out.level[k], level.at(i, j)[c], least.at(i / ratio, j / ratio)[c], 1.0);
+                    widen(out.level[k], level.at(i, j)[c], most.at(i / ratio, j / ratio)[c], 1.0);
+                }
     }
     return out;
 }

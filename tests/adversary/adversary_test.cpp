@@ -58,6 +58,22 @@ TEST_CASE("promise: minutes of random scenes and climbs keep to the bound on the
     check_search(options);
 }
 
+TEST_CASE("promise: at most one of twenty shares that are claimed of random scenes is wrong", "[adversary]") {
+    Judge judge(Promise::share);
+    int claims = 0, wrong = 0;
+    double furthest = 0;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+        const Verdict verdict = judge.judge(random_genome(11, i), avoided());
+        claims += verdict.promised() ? 1 : 0;
+        wrong += verdict.broken() ? 1 : 0;
+        furthest = std::max(furthest, verdict.claimed - verdict.held);
+    }
+    WARN(claims << " claims, " << wrong << " wrong, the share at most " << furthest << " % below the claim");
+    CHECK(claims > 20);
+    CHECK(20 * wrong <= claims);
+    CHECK(furthest < 1.0);
+}
+
 TEST_CASE("promise: scenes of cured faults keep it, and those of open faults are known to break it", "[adversary]") {
     Judge judge;
     int open = 0;

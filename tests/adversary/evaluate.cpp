@@ -1,5 +1,6 @@
 #include "tests/adversary/evaluate.hpp"
 
+#include "raster/quality.hpp"
 #include "shading/reference/reference.hpp"
 #include "tests/adversary/whole_sky.hpp"
 
@@ -89,6 +90,50 @@ Term Verdict::term() const {
 }
 
 Verdict Judge::judge(const Trial& trial) {
+    if (promise_ == Promise::bound) return judge_bound(trial);
+    Verdict draft = judge_share(trial, kDraftQuality), fast = judge_share(trial, kFastQuality);
+    return fast.ratio > draft.ratio ? fast : draft;
+}
+
+Verdict Judge::judge_share(const Trial& trial, const ShareBudget& budget) {
+    constexpr int kWidth = 128, kHeight = 96;
+    Verdict verdict;
+    verdict.promise = Promise::share;
+    verdict.measured = budget.codes;
+    Settings full = trial.settings;
+    full.shading.accuracy = Accuracy::exact;
+    full.shading.max_error_codes = 0;
+    full.shading.anisotropy = 4;
+    full.samples = std::max(full.samples, 4);
+    full.shadow_size = 0;
+    const Execution execution{.threads = 1};
+    const auto fail = [&](const Error& error) {
+        verdict.refused = error.message;
+        return verdict;
+    };
+    const auto prepared = PreparedScene::make(trial.scene);
+    if (!prepared) return fail(prepared.error());
+    const auto measured =
+        Renderer::measure(*prepared, trial.scene, trial.camera, full, budget, kWidth, kHeight, nullptr, execution);
+    if (!measured) return fail(measured.error());
+    const Settings cheaper = with_share(full, *measured);
+    if (cheaper == full) return verdict;
+    std::vector<std::uint32_t> wanted(kWidth * kHeight), drawn(kWidth * kHeight);
+    const auto draw_codes = [&](Renderer& renderer, const Settings& settings, std::vector<std::uint32_t>& codes) {
+        const Target target{.width = kWidth, .height = kHeight, .pixels = reinterpret_cast<std::uint8_t*>(codes.data())};
+        return renderer.render(trial.scene, trial.camera, settings, target, execution);
+    };
+    if (const auto report = draw_codes(budgeted_, full, wanted); !report) return fail(report.error());
+    if (const auto report = draw_codes(rest_, cheaper, drawn); !report) return fail(report.error());
+    int outside = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) outside += raster::differs(wanted[i], drawn[i], budget.codes) ? 1 : 0;
+    verdict.claimed = measured->percent;
+    verdict.held = 100.0 * (1.0 - static_cast<double>(outside) / static_cast<double>(wanted.size()));
+    verdict.ratio = (100.0 - verdict.held) / (100.0 - verdict.claimed);
+    return verdict;
+}
+
+Verdict Judge::judge_bound(const Trial& trial) {
     Verdict verdict;
     const auto picture = draw(budgeted_, trial, trial.scene, Accuracy::exact, trial.settings.shading.max_error_codes);
     if (!picture) {

@@ -1,4 +1,4 @@
-// The error of a trial's budgeted picture, against the bound that its report promises.
+// What a trial's picture makes of a promise: of a bound on its error, or of a share of its pixels.
 #pragma once
 
 #include "halflit/renderer.hpp"
@@ -8,6 +8,12 @@
 #include <string>
 
 namespace halflit::adversary {
+
+/// What is promised.
+enum class Promise : std::uint8_t {
+    bound,  ///< the error of a budget that is proven is within the bound that its report names
+    share   ///< as many pixels are within the codes of a budget that is measured as Renderer::measure claims
+};
 
 /// What a picture was compared with.
 enum class Truth : std::uint8_t {
@@ -21,8 +27,11 @@ inline constexpr int kTerms = 6;
 inline constexpr const char* kTermNames[kTerms] = {"rounding", "lobes", "specular", "environment", "cells", "left out"};
 
 struct Verdict {
-    double ratio = 0;     ///< measured / bound.codes; 0 if nothing was drawn
-    double measured = 0;  ///< codes, of the worst channel of the worst pixel
+    Promise promise = Promise::bound;
+    double ratio = 0;      ///< measured / bound.codes, or the share outside / the one claimed; 0 if nothing was drawn or claimed
+    double claimed = 100;  ///< Promise::share: percent of the pixels within `measured` codes that is claimed
+    double held = 100;     ///< and the true one
+    double measured = 0;   ///< codes, of the worst channel of the worst pixel; Promise::share: of the budget
     ErrorBound bound;
     Truth truth = Truth::reference;
     int x = 0, y = 0, channel = 0;  ///< of the worst pixel
@@ -30,15 +39,24 @@ struct Verdict {
     std::string refused;  ///< the message if halflit refused the scene
     [[nodiscard]] Term term() const;
     [[nodiscard]] bool broken() const { return ratio > 1.0; }
+    /// True if the picture had something to keep: a bound below 255 codes, or a share.
+    [[nodiscard]] bool promised() const {
+        return promise == Promise::share ? claimed < 100.0 : bound.codes > 0.0 && bound.codes < 255.0;
+    }
 };
 
 /// Draws trials, one after the other. Keeps renderers, for what they remember of environments.
 class Judge {
 public:
+    explicit Judge(Promise promise = Promise::bound) : promise_(promise) {}
     [[nodiscard]] Verdict judge(const Trial& trial);
     [[nodiscard]] Verdict judge(const Genome& genome, AvoidSet avoid) { return judge(make_trial(genome, avoid)); }
 
 private:
+    [[nodiscard]] Verdict judge_bound(const Trial& trial);
+    [[nodiscard]] Verdict judge_share(const Trial& trial, const ShareBudget& budget);
+
+    Promise promise_;
     Renderer budgeted_, reference_, rest_;
 };
 

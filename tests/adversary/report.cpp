@@ -8,6 +8,11 @@ namespace halflit::adversary {
 
 std::string text_of(const Verdict& v) {
     char text[500];
+    if (v.promise == Promise::share) {
+        std::snprintf(text, sizeof text, "ratio %.4g: %.4g %% of the pixels within %.4g codes, %.4g %% claimed", v.ratio, v.held, v.measured,
+                      v.claimed);
+        return text;
+    }
     std::snprintf(
         text, sizeof text,
         "ratio %.4g: %.4g codes off the %s at pixel %d,%d channel %d (drawn %.6g, true %.6g); bound %.4g = rounding %.3g + lobes %.3g + "
@@ -22,12 +27,15 @@ std::string text_of(const SearchResult& r) {
     char text[300];
     std::snprintf(
         text, sizeof text,
-        "%llu scenes in %.1f s (%.0f a second), %llu with a bound below 255 codes, %llu of them within their budget, %llu refused; %zu "
+        "%llu scenes in %.1f s (%.0f a second), %llu with a promise, %llu of them within their budget, %llu refused; %zu "
         "climbs ended above 1, worst ratio %.4g",
         static_cast<unsigned long long>(r.scenes), r.seconds, static_cast<double>(r.scenes) / r.seconds,
         static_cast<unsigned long long>(r.drawn), static_cast<unsigned long long>(r.within), static_cast<unsigned long long>(r.refused),
         r.broken.size(), r.worst.verdict.ratio);
     std::string out = text;
+    if (r.worst.verdict.promise == Promise::share)
+        return out + "\n  random scenes: " + std::to_string(r.fresh) + " claims, " + std::to_string(r.fresh_broken) +
+               " of them wrong\n  worst: " + text_of(r.worst.verdict);
     for (int t = 0; t < kTerms; ++t) {
         const Found& found = r.worst_of_term[t];
         out += std::string("\n  worst where ") + kTermNames[t] + " fills the bound (scene " + std::to_string(found.scene) +

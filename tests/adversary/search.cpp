@@ -13,7 +13,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 class Search {
 public:
     Search(const SearchOptions& options, const std::function<void(const Found&)>& on_broken)
-        : options_(options), on_broken_(on_broken), numbers_(options.seed ^ 0xC11B5u), begin_(now()) {}
+        : options_(options), on_broken_(on_broken), numbers_(options.seed ^ 0xC11B5u), begin_(now()), judge_(options.promise) {}
 
     SearchResult run() {
         for (std::uint64_t restart = 0; !over(); ++restart) {
@@ -39,7 +39,7 @@ private:
         Found found{genome, judge_.judge(trial), ++result_.scenes};
         const Verdict& v = found.verdict;
         if (!v.refused.empty()) ++result_.refused;
-        if (v.bound.codes > 0 && v.bound.codes < 255) {
+        if (v.promised()) {
             ++result_.drawn;
             result_.within += v.bound.within ? 1 : 0;
         }
@@ -55,6 +55,8 @@ private:
             const Genome genome = random_genome(
                 options_.seed, restart * static_cast<std::uint64_t>(options_.fresh_per_climb) + static_cast<std::uint64_t>(i));
             Found found = tried(genome, make_trial(genome, options_.avoid));
+            result_.fresh += found.verdict.promised() ? 1 : 0;
+            result_.fresh_broken += found.verdict.broken() ? 1 : 0;
             if (score(found.verdict) > score(best.verdict) || i == 0) best = std::move(found);
             if (best.verdict.broken()) break;
         }
@@ -62,7 +64,9 @@ private:
     }
 
     /// The reference takes a second for each environment and lobe, so that climbs leave such scenes out.
-    static bool slow(const Trial& trial) { return trial.scene.environment != nullptr && !whole_sky_applies(trial); }
+    [[nodiscard]] bool slow(const Trial& trial) const {
+        return options_.promise == Promise::bound && trial.scene.environment != nullptr && !whole_sky_applies(trial);
+    }
 
     void climb(Found best) {
         // A climb that is far below 1 and stays there is not worth its time.
@@ -105,8 +109,7 @@ SearchResult search(const SearchOptions& options, const std::function<void(const
     return Search(options, on_broken).run();
 }
 
-Found climbed(const Genome& genome, AvoidSet avoid, std::uint64_t seed, int steps) {
-    Judge judge;
+Found climbed(Judge& judge, const Genome& genome, AvoidSet avoid, std::uint64_t seed, int steps) {
     Numbers numbers(seed);
     Found best{genome, judge.judge(genome, avoid), 0};
     GeneSet read = make_trial(genome, avoid).read;

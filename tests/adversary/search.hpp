@@ -11,6 +11,7 @@
 namespace halflit::adversary {
 
 struct SearchOptions {
+    Promise promise = Promise::bound;
     std::uint64_t seed = 1;
     AvoidSet avoid = 0;
     double seconds = std::numeric_limits<double>::infinity();  ///< wall clock
@@ -27,7 +28,8 @@ struct Found {
 };
 
 struct SearchResult {
-    std::uint64_t scenes = 0, drawn = 0, refused = 0, within = 0;  ///< drawn: with a bound below 255 codes and a surface in view
+    std::uint64_t scenes = 0, drawn = 0, refused = 0, within = 0;  ///< drawn: with a bound below 255 codes and a surface in view, or a share
+    std::uint64_t fresh = 0, fresh_broken = 0;                     ///< of the random scenes that were drawn: all, and with a broken promise
     double seconds = 0;
     Found worst;                  ///< largest ratio of all
     Found worst_of_term[kTerms];  ///< by the largest part of the bound
@@ -38,7 +40,7 @@ struct SearchResult {
 [[nodiscard]] SearchResult search(const SearchOptions& options, const std::function<void(const Found&)>& on_broken = {});
 
 /// One climb from a scene, of `steps` mutations at most, past a broken promise too.
-[[nodiscard]] Found climbed(const Genome& genome, AvoidSet avoid, std::uint64_t seed, int steps);
+[[nodiscard]] Found climbed(Judge& judge, const Genome& genome, AvoidSet avoid, std::uint64_t seed, int steps);
 
 /// Sets as many genes to 0 as leave the ratio above `keep`, with at most `tries` judgements.
 [[nodiscard]] Genome shrunk(Judge& judge, const Genome& genome, AvoidSet avoid, double keep, int tries = 400);
