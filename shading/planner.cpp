@@ -65,6 +65,7 @@ void plan_environments(const PlanInputs& inputs, double budget_codes, PlanMemory
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         MaterialPlan& material = plan.materials[i];
         if ((material.stages & kStageEnvironment) == 0 || (material.stages & kStageSpecular) == 0) continue;
+        if (!roughness_varies(material)) material.mirror = mirror_row(std::max(material.roughness, kMinRoughness));
         material.reflection_lobes = material.metallic > 0.0f || material.dielectric > kFaintReflectance ? 2 : 1;
         if (plan.reflections.rgba == nullptr && (inputs.drawn == nullptr || (*inputs.drawn)[i]))
             plan.reflections = memory.environments.reflections(inputs.for_each_row);

@@ -38,37 +38,96 @@ HALFLIT_INLINE Ellipse ellipse_of(const shading::TexturePlan& texture, const Tex
     return out;
 }
 
+/// Taps of the probes along footprints. Probes that a lane has not have the weight 0 there.
+struct ProbeTaps {
+    int pairs;   ///< probes at either side of the middle one, in the lane that has most
+    bool plain;  ///< at all probes the right corners follow the left ones in memory, in all lanes
+    PlaceTaps at[1 + shading::kMostAnisotropy];  ///< the middle; then a probe before it and one behind it for each pair
+    alignas(64) float weight[shading::kMostAnisotropy / 2][kWidth];
+    alignas(64) float ratio[kWidth];
+};
+
 /// Not inlined, as filter_texels.
-[[gnu::noinline]] static Sample sample_anisotropic(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane) {
+[[gnu::noinline]] static void make_probes(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane,
+                                          ProbeTaps& out) {
     const TexelPlace middle = texel_place(texture, block, lane);
     const Ellipse ellipse = ellipse_of(texture, texel_steps(texture, block, lane));
-    TexelTaps taps;
-    const auto probe = [&](F along) __attribute__((always_inline)) {
-        make_taps_at(texture, {mad(along, ellipse.du, middle.u), mad(along, ellipse.dv, middle.v)}, ellipse.lod, taps);
-        return filter_texels(texture.data, taps);
+    out.plain = true;
+    const auto probe = [&](int number, F along) __attribute__((always_inline)) {
+        const TexelPlace place{mad(along, ellipse.du, middle.u), mad(along, ellipse.dv, middle.v)};
+        make_taps_at(texture, place, ellipse.lod, out.at[number]);
+        out.plain = out.plain && out.at[number].neighbours;
     };
-    Sample sum = probe(F(0.0f));
+    store(out.ratio, ellipse.ratio);
+    probe(0, F(0.0f));
     const F none(0.0f), one(1.0f);
-    if (!any(ellipse.ratio > one)) return sum;
-    for (int i = 1; i <= shading::kMostAnisotropy / 2; ++i) {
-        // Weight of the two probes i steps away. A lane without them adds 0.
+    out.pairs = 0;
+    while (out.pairs < shading::kMostAnisotropy / 2) {
+        const int i = out.pairs + 1;
         const F weight = clamp(F(0.5f) * (ellipse.ratio - F(static_cast<float>(2 * i - 1))), none, one);
         if (!any(weight > none)) break;
-        const Sample before = probe(F(static_cast<float>(-i))), behind = probe(F(static_cast<float>(i)));
+        store(out.weight[out.pairs], weight);
+        probe(2 * i - 1, F(static_cast<float>(-i)));
+        probe(2 * i, F(static_cast<float>(i)));
+        out.pairs = i;
+    }
+}
+
+/// The weighted sum of plain probes. Each lane ends with its own last probe, as the others would add 0.
+template <bool kTwoLevels>
+[[gnu::noinline]] static Sample sum_of_plain(const std::uint16_t* data, const ProbeTaps& probes) {
+    const Q unit = q_set(kTexelUnit);
+    return rows_of_lanes([&](int l) __attribute__((always_inline)) {
+        const auto value = [&](const PlaceTaps& taps) __attribute__((always_inline)) {
+            const TexelRows near = rows_of(data, taps.near, l);
+            const TapWeights weights = weights_of(taps.near, l);
+            if constexpr (!kTwoLevels) return q_mul(bilinear(near, weights), unit);
+            return q_mul(trilinear(near, rows_of(data, taps.far, l), weights, weights_of(taps.far, l), taps.blend[l]), unit);
+        };
+        Q sum = value(probes.at[0]);
+        for (int i = 0; i < probes.pairs && probes.weight[i][l] > 0.0f; ++i) {
+            const Q before = value(probes.at[2 * i + 1]), behind = value(probes.at[2 * i + 2]);
+            sum = q_mad(q_set(probes.weight[i][l]), q_add(before, behind), sum);
+        }
+        return sum;
+    });
+}
+
+[[gnu::noinline]] static Sample sum_of_probes(const std::uint16_t* data, const ProbeTaps& probes) {
+    Sample sum = filter_texels(data, probes.at[0]);
+    for (int i = 0; i < probes.pairs; ++i) {
+        const F weight = load(probes.weight[i]);
+        const Sample before = filter_texels(data, probes.at[2 * i + 1]), behind = filter_texels(data, probes.at[2 * i + 2]);
         sum.r = mad(weight, before.r + behind.r, sum.r);
         sum.g = mad(weight, before.g + behind.g, sum.g);
         sum.b = mad(weight, before.b + behind.b, sum.b);
         sum.a = mad(weight, before.a + behind.a, sum.a);
     }
-    const F share = vdiv(one, ellipse.ratio);
-    return {sum.r * share, sum.g * share, sum.b * share, sum.a * share};
+    return sum;
 }
 
-/// A texture's value. `taps`: memory of this vector of lanes; a new one starts with key 0.
+/// Taps of a vector of lanes, for the textures of a material that are read at the same places (TexturePlan::taps): one after the other,
+/// they find what the last one made.
+struct TexelTaps {
+    std::int32_t place_of = 0, probes_of = 0;  ///< TexturePlan::taps; 0: not made yet
+    PlaceTaps place;
+    ProbeTaps probes;
+};
+
+/// A texture's value.
 HALFLIT_INLINE Sample sample_texture(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane, TexelTaps& taps) {
-    if (texture.anisotropy > 1) return sample_anisotropic(texture, block, lane);
-    if (taps.key != texture.taps) make_taps(texture, block, lane, taps);
-    return filter_texels(texture.data, taps);
+    if (texture.anisotropy > 1) {
+        ProbeTaps& probes = taps.probes;
+        if (taps.probes_of != texture.taps) make_probes(texture, block, lane, probes);
+        taps.probes_of = texture.taps;
+        const Sample sum = !probes.plain                ? sum_of_probes(texture.data, probes)
+                           : probes.at[0].two_levels ? sum_of_plain<true>(texture.data, probes)
+                                                     : sum_of_plain<false>(texture.data, probes);
+        return probes.pairs == 0 ? sum : scaled(sum, vdiv(F(1.0f), load(probes.ratio)));
+    }
+    if (taps.place_of != texture.taps) make_taps(texture, block, lane, taps.place);
+    taps.place_of = texture.taps;
+    return filter_texels(texture.data, taps.place);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

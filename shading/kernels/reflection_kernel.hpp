@@ -1,9 +1,10 @@
 // Reflections of an environment: where a rough mirror looks, and how wide, from a table; what it sees there, from blurred maps.
 #pragma once
 
-#include "shading/kernels/simd_records.hpp"
+#include "shading/kernels/simd_texels.hpp"
 #include "shading/kernels/vector.hpp"
 #include "shading/model/reflection_tables.hpp"
+#include "shading/plan/material_plan.hpp"
 #include "shading/plan/reflection_plan.hpp"
 
 namespace halflit {
@@ -35,6 +36,21 @@ HALFLIT_INLINE MirrorShape mirror_shape(F roughness, F n_dot_v) {
     lanes_of_records(first, out.a, out.b, out.turn0, out.level0);
     lanes_of_records(second, out.turn1, out.level1, out.spread, unused);
     return out;
+}
+
+/// The same at a material's one roughness.
+HALFLIT_INLINE MirrorShape mirror_shape(const shading::MirrorRow& row, F n_dot_v) {
+    constexpr int kLast = shading::kReflectionNodes - 1;
+    const F y = vdiv(n_dot_v * F(1.2f * kLast), n_dot_v + F(0.2f)), y_low = clamp(vfloor(y), F(0.0f), F(kLast - 1)), right = y - y_low;
+    const I left = round_to_int(y_low), next = left + I(1);
+    const auto value = [&](int number) __attribute__((always_inline)) {
+        const F a = look_up16(row.values[number], left), b = look_up16(row.values[number], next);
+        return mad(right, b - a, a);
+    };
+    return {value(0), value(1), value(2), value(3), value(4), value(5), value(6)};
+}
+HALFLIT_INLINE MirrorShape mirror_shape(const shading::MaterialPlan& material, F roughness, F n_dot_v) {
+    return material.mirror.at_one_roughness ? mirror_shape(material.mirror, n_dot_v) : mirror_shape(roughness, n_dot_v);
 }
 
 /// Angle of (x, y) from the x axis, in [-pi, pi], within 3e-7; (0, 0) gives 0.
@@ -75,20 +91,20 @@ struct MapTaps {
     alignas(64) float right[kWidth], down[kWidth];
 };
 HALFLIT_INLINE void map_taps(const shading::ReflectionPlan& map, GlobePoint at, I level, MapTaps& out) {
-    const F rows = gather(map.rows, level), columns = rows + rows;
+    const F rows = look_up8(map.rows, level), columns = rows + rows;
     const F x = at.u * columns, y = at.v * rows;
     const F x_low = vmin(vfloor(x), columns - F(1.0f)), y_low = vmin(vfloor(y), rows - F(1.0f));
     store(out.right, x - x_low);
     store(out.down, y - y_low);
     const I row = round_to_int(columns) + I(1);
-    store(out.index, shl<2>(gather(map.first, level) + round_to_int(y_low) * row + round_to_int(x_low)));
+    store(out.index, shl<2>(look_up8(map.first, level) + round_to_int(y_low) * row + round_to_int(x_low)));
     store(out.below, shl<2>(row));
 }
-HALFLIT_INLINE Q map_value(const float* rgba, const MapTaps& taps, int lane) {
+HALFLIT_INLINE TapRows<float> rows_of(const float* rgba, const MapTaps& taps, int lane) {
     const float* const upper = rgba + taps.index[lane];
-    const QQ column = qq_lerp(qq_load(upper), qq_load(upper + taps.below[lane]), taps.down[lane]);
-    return q_lerp(qq_low(column), qq_high(column), q_set(taps.right[lane]));
+    return {upper, upper + taps.below[lane]};
 }
+HALFLIT_INLINE TapWeights weights_of(const MapTaps& taps, int lane) { return {taps.right[lane], taps.down[lane]}; }
 
 /// Radiance from a direction of any length, blurred by the lobe of a level in [0, kReflectionLevels - 1].
 [[gnu::noinline]] static V3 blurred_radiance(const shading::ReflectionPlan& map, F x, F y, F z, F level) {
@@ -100,7 +116,8 @@ HALFLIT_INLINE Q map_value(const float* rgba, const MapTaps& taps, int lane) {
     map_taps(map, at, round_to_int(low), fine);
     map_taps(map, at, round_to_int(low) + I(1), coarse);
     Q records[kWidth];
-    for (int l = 0; l < kWidth; ++l) records[l] = q_lerp(map_value(map.rgba, fine, l), map_value(map.rgba, coarse, l), q_set(between[l]));
+    for (int l = 0; l < kWidth; ++l)
+        records[l] = trilinear(rows_of(map.rgba, fine, l), rows_of(map.rgba, coarse, l), weights_of(fine, l), weights_of(coarse, l), between[l]);
     V3 out;
     F unused;
     lanes_of_records(records, out.x, out.y, out.z, unused);

@@ -141,7 +141,7 @@ static void add_surroundings(const shading::ShadingPlan& frame, const shading::M
             store3(rows.mirrored, lane, hemisphere(frame.ambient, reflection.y) * occlusion);
             continue;
         }
-        const MirrorShape shape = mirror_shape(load(rows.roughness + lane), clamp(n_dot_v, F(0.0f), F(1.0f)));
+        const MirrorShape shape = mirror_shape(material, load(rows.roughness + lane), clamp(n_dot_v, F(0.0f), F(1.0f)));
         const V3 mirrored = has(material, kStageAnisotropy)
                                 ? stretched_radiance(frame, rows, lane)
                                 : mirrored_radiance(frame.reflections, material.reflection_lobes, shape, normal, n_dot_v, reflection);

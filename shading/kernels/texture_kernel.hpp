@@ -35,17 +35,28 @@ HALFLIT_INLINE TapWeights weights_of(const LevelTaps& taps, int lane) { return {
 
 /// fetch(lane) for all lanes, as rows.
 template <class Fetch>
-HALFLIT_INLINE Sample sample_lanes(const Fetch& fetch) {
+HALFLIT_INLINE Sample rows_of_lanes(const Fetch& fetch) {
     Q records[kWidth];
     for (int lane = 0; lane < kWidth; ++lane) records[lane] = fetch(lane);
     Sample sample;
     lanes_of_records(records, sample.r, sample.g, sample.b, sample.a);
-    const F unit(1.0f / 65535.0f);
-    return {sample.r * unit, sample.g * unit, sample.b * unit, sample.a * unit};
+    return sample;
+}
+
+/// Texels' values are multiples of this.
+inline constexpr float kTexelUnit = 1.0f / 65535.0f;
+
+HALFLIT_INLINE Sample scaled(const Sample& sample, F factor) {
+    return {sample.r * factor, sample.g * factor, sample.b * factor, sample.a * factor};
+}
+
+template <class Fetch>
+HALFLIT_INLINE Sample sample_lanes(const Fetch& fetch) {
+    return scaled(rows_of_lanes(fetch), F(kTexelUnit));
 }
 
 /// Not inlined: five textures times the paths below would not fit the instruction cache, and a call per vector of lanes is cheap.
-[[gnu::noinline]] static Sample filter_texels(const std::uint16_t* data, const TexelTaps& taps) {
+[[gnu::noinline]] static Sample filter_texels(const std::uint16_t* data, const PlaceTaps& taps) {
     const LevelTaps &near = taps.near, &far = taps.far;
     if (taps.neighbours) {
         if (taps.two_levels)

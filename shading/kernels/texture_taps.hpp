@@ -20,10 +20,9 @@ struct LevelTaps {
     alignas(64) float right[kWidth], down[kWidth];
 };
 
-/// Taps of kWidth lanes.
-struct TexelTaps {
-    std::int32_t key = 0;  ///< TexturePlan::taps of the textures that they are for; 0: not made yet
-    bool linear;           ///< false: only the upper left corner of the one level is read
+/// Taps of kWidth lanes, one place each.
+struct PlaceTaps {
+    bool linear;  ///< false: only the upper left corner of the one level is read
     bool two_levels;
     bool neighbours;  ///< in all lanes the right corners follow the left ones in memory
     LevelTaps near, far;
@@ -182,10 +181,9 @@ HALFLIT_INLINE TexelPlace texel_place(const shading::TexturePlan& texture, const
 }
 
 /// Taps around a place, for footprints of 2^lod texels.
-HALFLIT_INLINE void make_taps_at(const shading::TexturePlan& texture, TexelPlace at, F lod, TexelTaps& out) {
+HALFLIT_INLINE void make_taps_at(const shading::TexturePlan& texture, TexelPlace at, F lod, PlaceTaps& out) {
     const F unit_u = wrap_unit(at.u, texture.wrap_u), unit_v = wrap_unit(at.v, texture.wrap_v);
     const bool one_filter = texture.mag == texture.min;
-    out.key = texture.taps;
     out.linear = !(one_filter && texture.mag == TextureFilter::nearest);
     const TapMode mode = !one_filter ? TapMode::mixed : out.linear ? TapMode::linear : TapMode::nearest;
     const M magnified = lod <= F(0.0f);
@@ -202,7 +200,7 @@ HALFLIT_INLINE void make_taps_at(const shading::TexturePlan& texture, TexelPlace
 
 /// Not inlined: a material has up to five textures.
 [[gnu::noinline]] static void make_taps(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane,
-                                        TexelTaps& out) {
+                                        PlaceTaps& out) {
     const TexelPlace at = texel_place(texture, block, lane);
     make_taps_at(texture, at, texture.needs_lod ? level_of_detail(texture, block, lane) : F(0.0f), out);
 }

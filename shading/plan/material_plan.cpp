@@ -112,6 +112,26 @@ MaterialPlan plan_shadow_catcher(const Material& material, const LightKinds& kin
 
 }  // namespace
 
+MirrorRow mirror_row(float roughness) {
+    constexpr int kLast = kReflectionNodes - 1;
+    // The operations are those of the kernel where the roughness varies, and in its order.
+    const float row = roughness * static_cast<float>(kLast), low = std::min(__builtin_floorf(row), static_cast<float>(kLast - 1));
+    const float down = row - low;
+    const ReflectionShape *const upper = kReflectionShapes + static_cast<int>(low) * kReflectionNodes,
+                                 *const lower = upper + kReflectionNodes;
+    MirrorRow out;
+    out.at_one_roughness = true;
+    for (int j = 0; j < kReflectionNodes; ++j) {
+        const auto number = [&](int i, float ReflectionShape::*of) {
+            out.values[i][j] = down * (lower[j].*of - upper[j].*of) + upper[j].*of;
+        };
+        number(0, &ReflectionShape::a), number(1, &ReflectionShape::b);
+        number(2, &ReflectionShape::turn0), number(3, &ReflectionShape::level0);
+        number(4, &ReflectionShape::turn1), number(5, &ReflectionShape::level1), number(6, &ReflectionShape::spread);
+    }
+    return out;
+}
+
 MaterialPlan plan_material(const Material& material, std::span<const Texture> textures, SlotMask available, const LightKinds& kinds,
                            const ShadingSettings& options) {
     if (material.shadow_catcher) return plan_shadow_catcher(material, kinds, options);

@@ -4,6 +4,7 @@
 #include "halflit/material.hpp"
 #include "halflit/shading.hpp"
 #include "shading/fragment_block.hpp"
+#include "shading/model/reflection_tables.hpp"
 #include "shading/plan/lobe_plan.hpp"
 #include "shading/plan/texture_plan.hpp"
 
@@ -65,6 +66,13 @@ struct AnisotropyPlan {
     float strength = 0, cosine = 1, sine = 0;  ///< of the direction from the tangent
 };
 
+/// kReflectionShapes between two of its rows, at a material's one roughness.
+struct MirrorRow {
+    bool at_one_roughness = false;          ///< false: the roughness differs from fragment to fragment, and the rest is not set
+    float values[7][kReflectionNodes] = {};  ///< by the order of ReflectionShape's numbers
+};
+[[nodiscard]] MirrorRow mirror_row(float roughness);
+
 struct MaterialPlan {
     std::uint32_t stages = 0;  ///< bits of Stage; a block runs only these
     SlotMask slots = 0;        ///< vertex slots that raster interpolates
@@ -93,6 +101,7 @@ struct MaterialPlan {
     float shadow_turn_scale = 0;
     int environment = -1;                          ///< index into ShadingPlan::environments
     int reflection_lobes = 0;                      ///< lobes by which the environment's reflections are taken, 0 to 2; 0: there are none
+    MirrorRow mirror;                              ///< of those reflections
     bool normal_roughness = false;                 ///< minified normals make the surface rougher: their texture was made so
     bool occlusion_is_metallic_roughness = false;  ///< both read the same texels the same way: one fetch serves both
     BySlot<TexturePlan> textures;
