@@ -22,7 +22,6 @@ set(halflit_rows
     "libdeflate    io      1.14   1.25    libdeflate-dev       PkgConfig::libdeflate pkg-config libdeflate"
     "stb           io      1.16   1.16    libstb-dev           halflit::stb          header stb/stb_image_write.h v([0-9]+.[0-9]+)"
     "OpenEXR       io      3.1    3.4.16  libopenexr-dev       PkgConfig::OpenEXR    pkg-config OpenEXR"
-    "libzip        io      1.7    1.12.1  libzip-dev           PkgConfig::libzip     pkg-config libzip"
     "expat         io      2.5    2.9.0   libexpat1-dev        PkgConfig::expat      pkg-config expat"
     "Draco         io      1.5.5  1.5.7   libdraco-dev         PkgConfig::Draco      pkg-config draco"
     "meshoptimizer io      0.18   0.22    libmeshoptimizer-dev meshoptimizer::meshoptimizer find_package meshoptimizer"

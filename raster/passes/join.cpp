@@ -16,6 +16,7 @@ public:
 
     [[nodiscard]] bool are_one(std::uint32_t a, std::uint32_t b, int x_px, int y_px) const {
         // Neighbouring pixels show the same pairs again.
+        if (a > b) std::swap(a, b);
         SurfacePairs::Pair& pair = known_.of(a, b);
         if (pair.a != a || pair.b != b) pair = find(a, b);
         if (pair.kind != SurfacePairs::Kind::near_corner) return pair.kind == SurfacePairs::Kind::one;
@@ -26,83 +27,67 @@ public:
 
 private:
     /// Two triangles are one surface if they have an edge of their mesh in common, or one corner that is not farther than a pixel, and are
-    /// large or have normals that are alike.
+    /// large or have normals that are alike at these corners.
     [[nodiscard]] SurfacePairs::Pair find(std::uint32_t a, std::uint32_t b) const {
         SurfacePairs::Pair pair{a, b, SurfacePairs::Kind::apart, 0, 0};
         const TriangleRecord &of_a = geometry_.record(a), &of_b = geometry_.record(b);
         if (!geometry_.draw_of(of_a).few_vertices || of_a.draw_and_back != of_b.draw_and_back) return pair;
-        const auto& [b0, b1, b2] = of_b.vertex;
-        unsigned common = 0;  // bit k: corner k of a is one of b's
-        for (unsigned k = 0; k < 3; ++k) {
-            const std::uint32_t v = of_a.vertex[k];
-            common |= (static_cast<unsigned>(v == b0) | static_cast<unsigned>(v == b1) | static_cast<unsigned>(v == b2)) << k;
-        }
+        unsigned common = 0, common_of_b = 0;  // bit k: corner k is one of the other triangle's
+        for (unsigned k = 0; k < 3; ++k)
+            for (unsigned l = 0; l < 3; ++l) {
+                const auto same = static_cast<unsigned>(of_a.vertex[k] == of_b.vertex[l]);
+                common |= same << k, common_of_b |= same << l;
+            }
         if (common == 0) return pair;
         const std::size_t chunk_a = geometry_.chunk_of(a), chunk_b = geometry_.chunk_of(b);
         if (chunk_a != chunk_b)  // corners that clipping made are numbered by chunk
-            for (unsigned k = 0; k < 3; ++k)
+            for (unsigned k = 0; k < 3; ++k) {
                 if (of_a.vertex[k] & kClipVertex) common &= ~(1u << k);
+                if (of_b.vertex[k] & kClipVertex) common_of_b &= ~(1u << k);
+            }
         if (common == 0) return pair;
-        const Triangle first(*this, of_a, chunk_a), second(*this, of_b, chunk_b);
-        if (!(first.is_large() && second.is_large()) && !are_alike(first, second, common)) return pair;
+        const SurfacePairs::Shape first = shape_of(a, of_a, chunk_a), second = shape_of(b, of_b, chunk_b);
+        if (!(first.large && second.large) && ((first.unlike & edges_at(common)) | (second.unlike & edges_at(common_of_b))) != 0) return pair;
         pair.kind = SurfacePairs::Kind::one;
         if (common == 1 || common == 2 || common == 4) {
-            const ScreenVertex& at = *first.screen[common >> 1];
+            const ScreenVertex& at = vertex_of(geometry_.source(chunk_a), of_a.vertex[common >> 1]);
             pair.kind = SurfacePairs::Kind::near_corner, pair.x = at.x, pair.y = at.y;
         }
         return pair;
     }
 
-    struct Triangle {
-        const ScreenVertex* screen[3];
-        const float* record[3];
-        int floats;  ///< of a record
+    /// Edges that end at some of these corners; edge k goes from corner k to the next one.
+    [[nodiscard]] static unsigned edges_at(unsigned corners) { return (corners | corners >> 1 | corners << 2) & 7u; }
 
-        Triangle(const Surfaces& of, const TriangleRecord& triangle, std::size_t chunk) {
-            const std::size_t draw = triangle.draw_and_back >> 1;
-            floats = of.records_.stride(draw);
-            for (int k = 0; k < 3; ++k) {
-                screen[k] = &vertex_of(of.geometry_.source(chunk), triangle.vertex[k]);
-                record[k] = of.records_.of_corner(chunk, draw, triangle.vertex[k]);
-            }
-        }
-        /// Covers so many pixels that what is interpolated hardly changes within one.
-        [[nodiscard]] bool is_large() const {
-            constexpr std::int64_t kPixel = 256, kTwiceTheArea = 2 * 32 * kPixel * kPixel;
-            const std::int64_t ux = screen[1]->x - screen[0]->x, uy = screen[1]->y - screen[0]->y, vx = screen[2]->x - screen[0]->x,
-                               vy = screen[2]->y - screen[0]->y;
-            return ux * vy - uy * vx >= kTwiceTheArea;
-        }
-    };
-
-    /// The normals of all corners are within 25.7 degrees of those of the common ones. Where they are not, each triangle's own light is
-    /// needed: of 90, 45, 26, 14 and 8 degrees it is the widest that adds no more than one part in a hundred to the error of a dense model.
-    /// common: bit k: corner k of a is one.
-    [[nodiscard]] static bool are_alike(const Triangle& a, const Triangle& b, unsigned common) {
+    /// Normals are alike within 25.7 degrees. Where those of two triangles are not like those of the corners that they have in common, each
+    /// one's own light is needed: of 90, 45, 26, 14 and 8 degrees it is the widest that adds no more than one part in a hundred to the
+    /// error of a dense model.
+    [[nodiscard]] SurfacePairs::Shape shape_of(std::uint32_t id, const TriangleRecord& triangle, std::size_t chunk) const {
+        SurfacePairs::Shape& shape = known_.of(id);
+        if (shape.triangle == id) return shape;
+        shape = {id};
+        const ScreenVertex* at[3];
+        for (int k = 0; k < 3; ++k) at[k] = &vertex_of(geometry_.source(chunk), triangle.vertex[k]);
+        constexpr std::int64_t kPixel = 256, kTwiceTheArea = 2 * 32 * kPixel * kPixel;
+        const std::int64_t ux = at[1]->x - at[0]->x, uy = at[1]->y - at[0]->y, vx = at[2]->x - at[0]->x, vy = at[2]->y - at[0]->y;
+        shape.large = ux * vy - uy * vx >= kTwiceTheArea;
+        const std::size_t draw = triangle.draw_and_back >> 1;
+        if (records_.stride(draw) <= shading::kNormalX + 2) return shape;  // no light, no normals
         constexpr float kLeastCosineSquared = 0.8125f;
-        if (a.floats <= shading::kNormalX + 2) return true;  // no light, no normals
         const auto product = [](const float* m, const float* n) { return (m[0] * n[0] + m[1] * n[1]) + m[2] * n[2]; };
-        const float* normal[5];  // the common corners first, then the others
-        int count = 0;
-        for (unsigned k = 0; k < 3; ++k)
-            if ((common >> k & 1u) != 0) normal[count++] = a.record[k] + shading::kNormalX;
-        const int commons = count;
-        for (unsigned k = 0; k < 3; ++k)
-            if ((common >> k & 1u) == 0) normal[count++] = a.record[k] + shading::kNormalX;
-        for (const float* record : b.record) {
-            bool known = false;
-            for (int i = 0; i < commons; ++i) known |= record + shading::kNormalX == normal[i];
-            if (!known && count < 5) normal[count++] = record + shading::kNormalX;
+        const float* normal[3];
+        float length[3];
+        for (int k = 0; k < 3; ++k) {
+            normal[k] = records_.of_corner(chunk, draw, triangle.vertex[k]) + shading::kNormalX;
+            length[k] = product(normal[k], normal[k]);
         }
-        float length[5];
-        for (int i = 0; i < count; ++i) length[i] = product(normal[i], normal[i]);
-        bool alike = true;
-        for (int k = 0; k < commons; ++k)
-            for (int i = k + 1; i < count; ++i) {
-                const float cosine = product(normal[k], normal[i]);
-                alike &= (cosine > 0.0f) & (cosine * cosine >= kLeastCosineSquared * (length[k] * length[i]));
-            }
-        return alike;
+        for (unsigned k = 0; k < 3; ++k) {
+            const unsigned next = k == 2 ? 0 : k + 1;
+            const float cosine = product(normal[k], normal[next]);
+            const bool alike = (cosine > 0.0f) & (cosine * cosine >= kLeastCosineSquared * (length[k] * length[next]));
+            shape.unlike |= static_cast<unsigned>(!alike) << k;
+        }
+        return shape;
     }
 
     const ViewGeometry& geometry_;

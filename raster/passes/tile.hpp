@@ -78,8 +78,15 @@ struct SurfacePairs {
         Kind kind = Kind::apart;
         std::int32_t x = 0, y = 0;  ///< as ScreenVertex
     };
-    Pair pairs[256];
-    Pair& of(std::uint32_t a, std::uint32_t b) { return pairs[(a * 5 + b) % std::size(pairs)]; }
+    Pair pairs[512];
+    Pair& of(std::uint32_t a, std::uint32_t b) { return pairs[((a * 0x9e3779b1u) ^ (b * 0x85ebca6bu)) >> 23]; }
+    struct Shape {
+        std::uint32_t triangle = kNoTriangle;
+        bool large = false;   ///< covers so many pixels that what is interpolated hardly changes within one
+        unsigned unlike = 0;  ///< bit k: the normals of corner k and of the next one are not alike
+    };
+    Shape shapes[256];
+    Shape& of(std::uint32_t triangle) { return shapes[triangle % std::size(shapes)]; }
 };
 
 /// The working memory of one task.

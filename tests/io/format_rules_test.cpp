@@ -183,7 +183,7 @@ TEST_CASE("OBJ: lines and points are drawn without light", "[io]") {
 }
 
 TEST_CASE("3MF: an extension that a file requires is known, or the file refused by its name", "[io]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     const auto requiring = [](const std::string& attributes) {
         std::string text = three_mf_text("meter", "<object id=\"1\">" + three_mf_mesh(letter()) + "</object>", "<item objectid=\"1\"/>");
         const std::size_t at = text.find("unit=");
@@ -203,7 +203,7 @@ TEST_CASE("3MF: an extension that a file requires is known, or the file refused 
 }
 
 TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     const std::string resources =
         "<basematerials id=\"5\"><base name=\"a\" displaycolor=\"#FF0000\"/></basematerials>"
         "<m:colorgroup id=\"6\"><m:color color=\"#00FF00\"/><m:color color=\"#0000FF80\"/></m:colorgroup>"
@@ -231,7 +231,7 @@ TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
 }
 
 TEST_CASE("3MF: bombs end at a limit", "[io]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     // Blanks: 128 MB in 130 kB.
     Bytes blanks = to_bytes(three_mf_text("meter", "", ""));
     blanks.resize(std::size_t{128} << 20, std::byte{' '});

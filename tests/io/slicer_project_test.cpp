@@ -72,7 +72,7 @@ bool is_warned(const LoadedScene& loaded, const char* part) {
 }  // namespace
 
 TEST_CASE("slicers: parts have their filaments, and helpers are left out", "[io][3mf]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     const std::string components =
         R"(<components><component objectid="1"/><component objectid="2"/><component objectid="3"/></components>)";
     const Bytes settings = to_bytes(R"(<config><object id="9"><metadata key="extruder" value="3"/>
@@ -89,7 +89,7 @@ TEST_CASE("slicers: parts have their filaments, and helpers are left out", "[io]
 }
 
 TEST_CASE("slicers: runs of triangles are volumes, and supports of 3MF itself are none", "[io][3mf]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     const Bytes settings =
         to_bytes(R"(<config><object id="1"><volume firstid="0" lastid="3"><metadata type="volume" key="extruder" value="2"/></volume>
         <volume firstid="4" lastid="9"><metadata type="volume" key="modifier" value="1"/></volume>
@@ -102,7 +102,7 @@ TEST_CASE("slicers: runs of triangles are volumes, and supports of 3MF itself ar
 }
 
 TEST_CASE("slicers: paint divides facets, and their area stays", "[io][3mf]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     // Of the last digits: 4 and 8 are filaments 1 and 2, 0C is the third, 3 divides all sides, 1 and 2 one and two of them.
     const std::pair<const char*, std::map<std::array<int, 3>, std::size_t>> cases[] = {
         {"4", {{kRed, 1}}},
@@ -138,7 +138,7 @@ TEST_CASE("slicers: paint divides facets, and their area stays", "[io][3mf]") {
 }
 
 TEST_CASE("slicers: one plate is drawn, by the project or by its place", "[io][3mf]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     const std::string objects = object(1, cube(0, 0)) + object(2, cube(0, 0));
     const std::string items =
         R"(<item objectid="1" transform="1 0 0 0 1 0 0 0 1 100 100 0"/><item objectid="2" transform="1 0 0 0 1 0 0 0 1 407 100 0"/>)";
@@ -168,7 +168,7 @@ TEST_CASE("slicers: one plate is drawn, by the project or by its place", "[io][3
 }
 
 TEST_CASE("3MF: layers and mixtures of colours, a lost texture, and a picture in place of a mesh", "[io][3mf]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     const std::string groups =
         R"(<basematerials id="5"><base name="a" displaycolor="#FF0000"/><base name="b" displaycolor="#0000FF"/></basematerials>
         <m:colorgroup id="6"><m:color color="#00FF00"/><m:color color="#00FF0080"/></m:colorgroup>
@@ -198,7 +198,7 @@ TEST_CASE("3MF: layers and mixtures of colours, a lost texture, and a picture in
 }
 
 TEST_CASE("models: a model whose alpha is 0 everywhere is opaque", "[io][3mf]") {
-    if (!has_three_mf()) HALFLIT_SKIP("built without libzip or expat");
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
     const auto with_alpha = [](const char* alpha) {
         return project(fmt::format(R"(<basematerials id="5"><base name="a" displaycolor="#FF0000{}"/></basematerials>)", alpha) +
                            object(1, cube(0, 0), R"(pid="5" pindex="0")"),

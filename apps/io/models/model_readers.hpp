@@ -31,7 +31,7 @@ namespace halflit::io::detail {
                                                     const LoadOptions& options);
 [[nodiscard]] std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir,
                                                     const LoadOptions& options);
-/// Fails (usage) where the library was built without libzip or expat.
+/// Fails (usage) where the library was built without expat.
 [[nodiscard]] LoadedScene read_three_mf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 
 }  // namespace halflit::io::detail

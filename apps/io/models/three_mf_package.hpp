@@ -1,10 +1,10 @@
 // The ZIP file of a 3MF model: its parts, unpacked under limits.
 #pragma once
 
+#include "apps/io/files/zip_file.hpp"
 #include "apps/io/gltf/file/document.hpp"
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,9 +16,6 @@ class ThreeMfPackage {
 public:
     /// Throws LoadFailure. `bytes` must outlive the package.
     ThreeMfPackage(std::span<const std::byte> bytes, Document& document);
-    ~ThreeMfPackage();
-    ThreeMfPackage(const ThreeMfPackage&) = delete;
-    ThreeMfPackage& operator=(const ThreeMfPackage&) = delete;
 
     /// A part's bytes; nothing if there is no such part. `name` may begin with a slash. Each part has at most LoadLimits::max_file_bytes,
     /// all of them max_total_bytes, and no more than 64 MB and 200 bytes for each byte of the package: text of meshes is packed 4 to 30
@@ -26,11 +23,8 @@ public:
     [[nodiscard]] std::optional<std::vector<std::byte>> read(const std::string& name);
 
 private:
-    struct Archive;
-    void check_size(std::uint64_t bytes, const std::string& where) const;
-
     Document& document_;
-    std::unique_ptr<Archive> archive_;
+    ZipFile zip_;
     Budget unpacked_;
 };
 

@@ -446,7 +446,7 @@ LoadedScene read_three_mf(std::span<const std::byte> bytes, const std::string& b
 #else
 
 LoadedScene read_three_mf(std::span<const std::byte>, const std::string&, const LoadOptions&) {
-    refuse("", "3MF files need the libraries libzip and expat, which this build lacks", ErrorCode::usage);
+    refuse("", "3MF files need the library expat, which this build lacks", ErrorCode::usage);
 }
 
 #endif

@@ -28,7 +28,7 @@ enum class ModelFormat : std::uint8_t {
     stl,       ///< ASCII or binary; z up; no unit: as it is
     ply,       ///< ASCII or binary; y up; no unit
     obj,       ///< with the materials of .mtl files; y up; no unit
-    three_mf,  ///< z up; in metres, by the file's unit. Needs libzip and expat
+    three_mf,  ///< z up; in metres, by the file's unit. Needs expat
     off        ///< text; y up; no unit
 };
 
@@ -38,7 +38,7 @@ enum class ModelFormat : std::uint8_t {
 /// The format of a file by its content, as load_model finds it; nothing if it is none of these.
 [[nodiscard]] HALFLIT_API std::optional<ModelFormat> find_model_format(std::span<const std::byte> bytes);
 
-/// True if the library was built with libzip and expat. Without them, 3MF files are refused by name.
+/// True if the library was built with expat. Without it, 3MF files are refused by name.
 [[nodiscard]] HALFLIT_API bool has_three_mf();
 
 /// Above a limit, loading ends with ErrorCode::limit.

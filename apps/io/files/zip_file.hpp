@@ -1,0 +1,42 @@
+// The files in a ZIP file that is in memory, by its directory at the end: stored or deflated, not encrypted; sizes of 64 bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::io::detail {
+
+class ZipFile {
+public:
+    struct Entry {
+        std::string name;
+        std::uint64_t bytes = 0;  ///< unpacked
+        std::uint64_t packed_bytes = 0;
+        std::uint64_t header_at = 0;  ///< in the ZIP file
+        std::uint32_t crc = 0;
+        unsigned method = 0;
+        bool encrypted = false;
+    };
+
+    /// Throws LoadFailure if there is no directory, or a part of it is missing. `bytes` must outlive the object.
+    explicit ZipFile(std::span<const std::byte> bytes);
+
+    /// The first entry of that name, the case of ASCII letters aside; null: there is none.
+    [[nodiscard]] const Entry* find(std::string_view name) const;
+    /// Writes an entry's bytes to `to`, which has as many. Throws LoadFailure for an entry that cannot be unpacked.
+    void unpack(const Entry& entry, std::span<std::byte> to) const;
+    /// Throws LoadFailure if so many bytes cannot come of what the entry has packed, before memory is taken for them.
+    void check_size(const Entry& entry) const;
+
+private:
+    [[nodiscard]] std::span<const std::byte> packed(const Entry& entry) const;
+
+    std::span<const std::byte> bytes_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace halflit::io::detail
