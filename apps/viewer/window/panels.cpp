@@ -158,6 +158,7 @@ void mark_pixel(const PanelTexts& texts) {
 bool Panel::draw(const PanelTexts& texts, int left, int width, int height) {
     ImGui::SetNextWindowPos({static_cast<float>(left), 0.0f});
     ImGui::SetNextWindowSize({static_cast<float>(width), static_cast<float>(height)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);  // a border's smooth edge would reach into the picture
     ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     ImGui::TextUnformatted(texts.scene.c_str());
     ImGui::TextUnformatted(texts.status.c_str());
@@ -196,6 +197,7 @@ bool Panel::draw(const PanelTexts& texts, int left, int width, int height) {
         ImGui::EndTabBar();
     }
     ImGui::End();
+    ImGui::PopStyleVar();
     if (texts.marked) mark_pixel(texts);
     return changed;
 }
