@@ -4,23 +4,38 @@
 #include "sh/coefficients.hpp"
 #include "sh/order.hpp"
 #include "sh/project.hpp"
+#include "shading/budget/reflection_bounds.hpp"
 #include "shading/reflection_map.hpp"
 
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace halflit::shading {
+
+/// The least and the largest light that a white surface of any normal reflects through a lobe, by all bands, channel by channel: no value
+/// is outside.
+struct LightRange {
+    Vec3d least, most;
+};
+[[nodiscard]] LightRange light_range(const sh::RadianceSh& radiance, const sh::WrapLobe& lobe);
+
+/// What is known of an image's light through a lobe.
+struct LobeLight {
+    sh::WrapLobe lobe;
+    std::optional<sh::OrderBounds> bounds;
+    std::optional<LightRange> range;
+};
 
 /// An image's light as numbers that were made before.
 struct ImageLightParts {
     int width = 0, height = 0;  ///< of the image
     std::vector<float> rgb;     ///< three floats per pixel
     sh::RadianceSh radiance;
-    std::vector<std::pair<sh::WrapLobe, sh::OrderBounds>> bounds;  ///< of some lobes
+    std::vector<LobeLight> lobes;  ///< some lobes, with all that is known of them
     ReflectionMap reflections;
+    ReflectionSteps reflection_steps;
 };
 
 /// Light of an image from all around. It never changes, so environments share it, any number of threads too.
@@ -34,17 +49,25 @@ public:
     [[nodiscard]] const sh::RadianceSh& radiance() const { return radiance_; }
     /// As sh::BandGrid::order_bounds(); computed when they are first asked for.
     [[nodiscard]] sh::OrderBounds order_bounds(const sh::WrapLobe& lobe) const;
+    /// As light_range() of the radiance, or of it turned; computed when it is first asked for.
+    [[nodiscard]] LightRange range(const sh::WrapLobe& lobe) const;
     /// Made when it is first asked for.
     [[nodiscard]] std::shared_ptr<const ReflectionMap> reflections(const ForEachRow& for_each_row) const;
+    /// Of those reflections, which were made before; measured when they are first asked for.
+    [[nodiscard]] ReflectionSteps steps() const;
 
 private:
+    [[nodiscard]] LobeLight& known(const sh::WrapLobe& lobe) const;  ///< in the list, or `other_`; an empty one if it is new
+
     int width_, height_;
     std::vector<float> rgb_;
     sh::RadianceSh radiance_;
     mutable std::mutex mutex_;  ///< guards all below
     mutable std::optional<sh::BandGrid> grid_;
-    mutable std::vector<std::pair<sh::WrapLobe, sh::OrderBounds>> bounds_;
+    mutable std::vector<LobeLight> lobes_;
+    mutable LobeLight other_;  ///< of a lobe for which the list has no room
     mutable std::shared_ptr<const ReflectionMap> reflections_;
+    mutable std::optional<ReflectionSteps> steps_;
 };
 
 }  // namespace halflit::shading

@@ -18,8 +18,14 @@ std::shared_ptr<const shading::ImageLight> scaled_studio_light(float level) {
     shading::ImageLightParts parts = raster::studio_parts();
     for (float& value : parts.rgb) value *= level;
     for (Vec3d& coefficient : parts.radiance.c) coefficient = coefficient * static_cast<double>(level);
-    for (auto& [lobe, bounds] : parts.bounds)
-        for (Vec3d& bound : bounds.by_order) bound = bound * static_cast<double>(level);
+    const auto scale = [&](Vec3d& light) { light = light * static_cast<double>(level); };
+    for (shading::LobeLight& light : parts.lobes) {
+        for (Vec3d& bound : light.bounds->by_order) scale(bound);
+        scale(light.range->least), scale(light.range->most);
+    }
+    parts.reflection_steps.most *= level;
+    for (auto& step : parts.reflection_steps.angle) step.absolute *= level;
+    for (auto& step : parts.reflection_steps.level) step.absolute *= level;
     for (auto& value : parts.reflections.rgba)
         for (float& channel : value) channel *= level;
     return std::make_shared<const shading::ImageLight>(std::move(parts));

@@ -174,7 +174,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
 
     // The parts that cannot be changed, and the codes that the poorest material has left for the cutoff radii, which all materials share.
     std::optional<ReflectionSteps> reflections;
-    if (plan.reflections.map != nullptr) reflections = reflection_steps(*plan.reflections.map);
+    if (plan.reflections.light != nullptr) reflections = plan.reflections.light->steps();
     std::vector<Surface> surfaces;
     std::vector<double> rounding, fixed;
     double poorest = budget_codes, most_reflected = 0.0;

@@ -37,25 +37,9 @@ std::array<double, sh::kMaxBands> newton_form_about_nodes(const float* coefficie
 /// other light added.
 std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment, const sh::WrapLobe& lobe, const sh::OrderBounds& bounds,
                                                   const EnvironmentOrder& order) {
-    constexpr int kRows = 64, kColumns = 128;
-    // The light has degree 9, and lies within half its range of its middle, so its second derivative along a great circle is at most 81
-    // times half the range (Bernstein). Every direction is within 0.035 rad of a grid point. So minimum and maximum are beyond the grid's
-    // by at most 0.0249 of the range, and the range is at most 1 / (1 - 0.0498) times the grid's.
-    constexpr double kBetweenPoints = 0.0263;
-    const sh::PreconvolvedSh light = sh::convolve(environment.radiance, sh::zonal_bands(lobe), sh::kMaxBands);
-    double least[3] = {1e300, 1e300, 1e300}, most[3] = {0, 0, 0};
-    for (int row = 0; row < kRows; ++row) {
-        const SinCos polar = sin_cos(kPi * (row + 0.5) / kRows);
-        for (int column = 0; column < kColumns; ++column) {
-            const SinCos around = sin_cos(2.0 * kPi * column / kColumns);
-            const Vec3d value = sh::evaluate(light, Vec3d{polar.sin * around.cos, polar.sin * around.sin, polar.cos});
-            const double sum[3] = {value.x, value.y, value.z};
-            for (int c = 0; c < 3; ++c) {
-                least[c] = std::min(least[c], sum[c]);
-                most[c] = std::max(most[c], sum[c]);
-            }
-        }
-    }
+    const LightRange range =
+        environment.light != nullptr ? environment.light->range(lobe) : light_range(environment.radiance, lobe);
+    const double least[3] = {range.least.x, range.least.y, range.least.z};
     const Vec3d rest = bounds.by_order[sh::kMaxBands - 1];
     std::array<double, sh::kMaxBands> codes{};
     for (std::size_t n = 0; n < sh::kMaxBands; ++n) {
@@ -63,7 +47,7 @@ std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment
         const double b[3] = {bound.x, bound.y, bound.z}, r[3] = {rest.x, rest.y, rest.z};
         double absolute = 0.0, relative = 0.0, either = 0.0;  // codes, each for the worst channel; a tone curve mixes channels
         for (int c = 0; c < 3; ++c) {
-            const double floor = least[c] - kBetweenPoints * (most[c] - least[c]) - r[c], d = b[c] * order.exposure;
+            const double floor = least[c] - r[c], d = b[c] * order.exposure;
             const double share = floor > b[c] ? b[c] / (floor - b[c]) : 1e6;
             absolute = std::max(absolute, order.costs.absolute(d));
             relative = std::max(relative, order.costs.relative(share));
@@ -170,7 +154,8 @@ void EnvironmentPlans::use(std::shared_ptr<const Environment> environment) {
 }
 
 ReflectionPlan EnvironmentPlans::reflections(const ForEachRow& for_each_row) {
-    return {(*environment_).light->reflections(for_each_row), (*environment_).rotate_rad};
+    const Environment& environment = *environment_;
+    return {environment.light->reflections(for_each_row), environment.light, environment.rotate_rad};
 }
 
 EnvironmentPlan EnvironmentPlans::plan(const sh::WrapLobe& lobe, const EnvironmentOrder& order) {

@@ -63,13 +63,20 @@ TEST_CASE("studio: its light has the bits that the code computes, whether or not
     CHECK(made.radiance.c == computed.radiance.c);
     CHECK(made.reflections.rgba == computed.reflections.rgba);
     CHECK(std::equal(std::begin(made.reflections.first), std::end(made.reflections.first), std::begin(computed.reflections.first)));
-    REQUIRE(made.bounds.size() == 3);
+    REQUIRE(made.lobes.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(made.lobes[i].range->least == computed.lobes[i].range->least);
+    CHECK(made.reflection_steps.level[6].relative == computed.reflection_steps.level[6].relative);
     // Bounds of other lobes are computed from the image.
     const EnvironmentImage image = studio_image();
     const shading::ImageLight of_image(image.width, image.height, image.rgb, sh::Projection(shading::view_of(image)));
     const shading::ImageLight of_parts(std::move(made));
-    for (const sh::WrapLobe lobe : {sh::WrapLobe{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 2.0, 1.0}, {0.4, 1.7, 0.9}})
+    for (const sh::WrapLobe lobe : {sh::WrapLobe{0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 2.0, 1.0}, {0.4, 1.7, 0.9}}) {
         CHECK(of_parts.order_bounds(lobe).by_order == of_image.order_bounds(lobe).by_order);
+        CHECK(of_parts.range(lobe).least == of_image.range(lobe).least);
+        CHECK(of_parts.range(lobe).most == of_image.range(lobe).most);
+    }
+    (void)of_image.reflections(shading::in_turn);
+    CHECK(of_parts.steps().most == of_image.steps().most);
 }
 
 TEST_CASE("studio: a share of it is its light times that share", "[raster][studio]") {
