@@ -41,18 +41,17 @@ private:
 /// Reflections of surfaces that mirror no more than this, seen straight on, are taken by one lobe.
 constexpr float kFaintReflectance = 0.2f;
 
-/// budget_codes: 0: none, the environment is as exact as without one.
-void plan_environments(const PlanInputs& inputs, double budget_codes, PlanMemory& memory, ShadingPlan& plan) {
+/// budget_codes: 0: none, the environment is as exact as without one. bounded: its error in codes is needed.
+void plan_environments(const PlanInputs& inputs, double budget_codes, bool bounded, PlanMemory& memory, ShadingPlan& plan) {
     if (inputs.environment == nullptr) return;
     plan.environments.clear();
     EnvironmentOrder order;
     order.fixed = inputs.options.environment_bands;
     order.tolerance = inputs.options.environment_tolerance;
     order.exposure = inputs.exposure;
-    if (budget_codes > 0.0) {
-        order.codes = budget_codes * kBudgetShares.each_environment();
-        order.costs = CodeCosts(tone_growth(inputs.tone_curve));
-    }
+    order.codes = budget_codes * kBudgetShares.each_environment();
+    order.bounded = bounded;
+    if (bounded) order.costs = CodeCosts(tone_growth(inputs.tone_curve));
     memory.environments.use(inputs.environment);
     const bool split_shadows = inputs.shadows.mode == ShadowMode::soft_split && !plan.shadow_maps.empty();
     EnvironmentPlanner planner(memory.environments, order, plan.environments);
@@ -94,17 +93,50 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     }
 }
 
+/// Spends an error budget. False if it is not kept: then the plan is as without one, and so is the time that the frame takes, but for its
+/// bound.
+bool spend_budget(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
+    using Measured = TexelFacts::Measured;
+    constexpr double kNear = 1.5, kReadingsToMeasureAll = 8.0;
+    const double budget = inputs.options.max_error_codes;
+    const CodeCosts costs(tone_growth(inputs.tone_curve));
+    const ShadingPlan before = plan;
+    SceneFacts facts = *inputs.facts;
+    facts.texels.measured = Measured::nothing;
+    const auto spend = [&](double codes) { spend_error_budget(plan, codes, costs, inputs.exposure, facts, memory.fits); };
+    plan_environments(inputs, budget, true, memory, plan);
+    if (may_keep(plan, budget, facts)) {
+        const ShadingPlan with_bands = plan;
+        const double texels = texels_of(plan, facts);
+        for (const Measured measured : {Measured::nothing, Measured::ranges, Measured::all}) {
+            const double readings = measured == Measured::nothing ? 0.0 : measured == Measured::ranges ? 1.0 : kReadingsToMeasureAll;
+            if (readings * texels > facts.worth_texels) break;
+            // Rounding is below a third of a code where nothing else shines.
+            if (measured == Measured::all && budget > 1.0 && plan.error.codes > kNear * budget) break;
+            facts.texels.measured = measured;
+            plan = with_bands;
+            spend(budget);
+            if (plan.error.within) return true;
+        }
+    }
+    plan = before;
+    plan_environments(inputs, 0.0, true, memory, plan);
+    if (looks_through(plan, facts)) {
+        plan.error.codes = plan.error.rounding = 255.0;
+        plan.error.tone_growth = costs.growth();
+    } else {
+        spend(0.0);
+    }
+    plan.error.budget = budget;
+    plan.error.within = plan.error.codes <= budget;
+    return false;
+}
+
 /// Lets the highlights of materials without a texture of roughness be curves, where that is as good as exact.
 void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
     for (MaterialPlan& material : plan.materials) {
-        constexpr std::uint32_t kNeeded = kStageLights | kStageSpecular;
-        if (material.ggx || (material.stages & kNeeded) != kNeeded || roughness_varies(material)) continue;
-        const double exponent = specular_exponent(static_cast<double>(material.roughness));
-        const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
-        if (!(half_exponent > 1.0)) continue;
         check_time();
-        const SpecularFit& fit = fits.specular(half_exponent, power_of(kExactCut, 1.0 / half_exponent), SpecularCurve::kMostTerms);
-        if (fit.codes(kExactPeak, 1) <= kExactCodes) material.specular_curve = fit.curve;
+        if (const SpecularFit* const fit = exact_highlight(plan, material, fits)) material.specular_curve = fit->curve;
     }
 }
 
@@ -146,31 +178,11 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
                                                             : inputs.looks[i - count - 1],
                                                inputs.textures, inputs.available_slots[i], kinds, options));
     plan_shadows(inputs.shadows, plan);
-    plan_environments(inputs, options.max_error_codes, memory, plan);
     HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));
     if (inputs.facts != nullptr) {
-        const CodeCosts costs(tone_growth(inputs.tone_curve));
-        if (may_keep(plan, options.max_error_codes, *inputs.facts)) {
-            // What texels' rounding is off by takes long to measure. Large budgets are first tried with the most that it may be, below a
-            // third of a code where nothing else shines.
-            constexpr double kLarge = 2.0, kNear = 1.5;
-            SceneFacts facts = *inputs.facts;
-            facts.measure_rounding = options.max_error_codes < kLarge;
-            const ShadingPlan before = facts.measure_rounding ? ShadingPlan() : plan;
-            const auto spend = [&] { spend_error_budget(plan, options.max_error_codes, costs, inputs.exposure, facts, memory.fits); };
-            spend();
-            if (facts.measure_rounding || plan.error.within || plan.error.codes > kNear * options.max_error_codes) return plan;
-            plan = before;
-            facts.measure_rounding = true;
-            spend();
-            return plan;
-        }
-        // What cannot be kept is not paid for: the frame is planned as without a budget.
-        plan_environments(inputs, 0.0, memory, plan);
-        plan.error.budget = options.max_error_codes;
-        plan.error.codes = plan.error.rounding = 255.0;
-        plan.error.within = false;
-        plan.error.tone_growth = costs.growth();
+        if (spend_budget(inputs, memory, plan)) return plan;
+    } else {
+        plan_environments(inputs, 0.0, false, memory, plan);
     }
     if (options.accuracy == Accuracy::exact) plan_highlights(plan, memory.fits);
     return plan;

@@ -76,7 +76,7 @@ void upload_texture(const Texture& texture, TextureStorage storage, bool srgb) {
 
 /// Uploads the maps of reflections one below the other, as 16-bit floats, which every driver filters.
 void upload_reflections(unsigned program, const Environment& environment, GLint unit) {
-    const shading::ReflectionPlan plan(environment.light->reflections(shading::in_turn), environment.rotate_rad);
+    const shading::ReflectionPlan plan(environment.light->reflections(shading::in_turn), environment.light, environment.rotate_rad);
     const shading::ReflectionMap& map = *plan.map;
     const int width = 2 * map.rows[0] + 1;
     float rows[shading::kReflectionLevels], first[shading::kReflectionLevels];

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 namespace halflit::shading {
 namespace {
@@ -39,6 +40,14 @@ double environment_codes(const CodeCosts& costs, const ShadingPlan& plan, const 
         codes += environment.bound_codes + costs.absolute(s.albedo * environment.sun_bound * exposure);
     }
     return codes;
+}
+
+/// True if `test` is true for some material that is drawn and has light.
+template <class Test>
+bool any_drawn(const ShadingPlan& plan, const SceneFacts& facts, const Test& test) {
+    for (std::size_t i = 0; i < plan.materials.size(); ++i)
+        if (facts.drawn[i] && (plan.materials[i].stages & kStageShadowCatcher) == 0 && test(plan.materials[i])) return true;
+    return false;
 }
 
 template <class Codes>
@@ -155,15 +164,36 @@ double cutoff_squared(const LightPlan& light, double least) {
 
 }  // namespace
 
+bool looks_through(const ShadingPlan& plan, const SceneFacts& facts) {
+    return any_drawn(plan, facts, [](const MaterialPlan& material) { return material.transmission.looked_through; });
+}
+
 bool may_keep(const ShadingPlan& plan, double budget_codes, const SceneFacts& facts) {
-    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-        const MaterialPlan& material = plan.materials[i];
-        if (!facts.drawn[i] || (material.stages & kStageShadowCatcher) != 0) continue;
-        if (material.transmission.looked_through) return false;  // what lies behind is another picture, with errors of its own
-        if (material.environment >= 0 && plan.environments[static_cast<std::size_t>(material.environment)].bound_codes > budget_codes)
-            return false;
-    }
-    return true;
+    return !looks_through(plan, facts) && !any_drawn(plan, facts, [&](const MaterialPlan& material) {
+        return material.environment >= 0 && plan.environments[static_cast<std::size_t>(material.environment)].bound_codes > budget_codes;
+    });
+}
+
+double texels_of(const ShadingPlan& plan, const SceneFacts& facts) {
+    std::set<const Texture*> textures;
+    double texels = 0.0;
+    (void)any_drawn(plan, facts, [&](const MaterialPlan& material) {
+        for (const TexturePlan& texture : material.textures)
+            if (texture.data != nullptr && textures.insert(texture.source).second)
+                for (int l = 0; l < texture.level_count; ++l) texels += static_cast<double>(texture.width[l]) * texture.height[l];
+        return false;
+    });
+    return texels;
+}
+
+const SpecularFit* exact_highlight(const ShadingPlan& plan, const MaterialPlan& material, PowerFits& fits) {
+    constexpr std::uint32_t kNeeded = kStageLights | kStageSpecular;
+    if (material.ggx || (material.stages & kNeeded) != kNeeded || roughness_varies(material)) return nullptr;
+    const double exponent = specular_exponent(static_cast<double>(material.roughness));
+    const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
+    if (!(half_exponent > 1.0)) return nullptr;
+    const SpecularFit& fit = fits.specular(half_exponent, power_of(kExactCut, 1.0 / half_exponent), SpecularCurve::kMostTerms);
+    return fit.codes(kExactPeak, 1) <= kExactCodes ? &fit : nullptr;
 }
 
 void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
@@ -210,6 +240,11 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
         bound.rounding = rounding[i];
         bound.environment = fixed[i] - rounding[i];
         bound.left_out = cutoff_codes;
+        if (budget_codes == 0.0 && s.specular && light.count > 0)
+            if (const SpecularFit* const fit = exact_highlight(plan, material, fits)) {
+                bound.specular = costs.other(fit->codes(s.reflectance * s.normalization * light.largest, light.count));
+                bound.left_out += costs.absolute(kExactCut * s.reflectance * s.normalization * light.largest * light.count);
+            }
         double left = budget_codes - fixed[i] - cutoff_codes;
         if (left > 0.0) {
             bound.lobes = spend_on_lobe(costs, material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);

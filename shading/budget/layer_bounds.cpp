@@ -41,9 +41,9 @@ SheenSlopes sheen_slopes(int first) {
     return out;
 }
 int first_row(double roughness) { return std::clamp(static_cast<int>(roughness * (kReflectionNodes - 1)), 0, kReflectionNodes - 2); }
-double least_roughness(const MaterialPlan& material) {
+double least_roughness(const MaterialPlan& material, const SceneFacts& facts) {
     const TexturePlan& texture = material.textures[TextureSlot::sheen_roughness];
-    const double least = texture.data != nullptr ? least_value(texture, 3) : 1.0;
+    const double least = texture.data != nullptr ? least_value(texture, 3, facts.texels) : 1.0;
     return std::max(static_cast<double>(material.sheen.roughness) * least, double{kMinRoughness});
 }
 
@@ -76,7 +76,7 @@ Surface coat_surface(const ShadingPlan& plan, const MaterialPlan& material, cons
     s.albedo = 0.0;                  // a coat scatters nothing
     s.diffuse = s.shiny = Factor{};  // the blue channel of its texture of roughness has no meaning
     if (const TexturePlan& texture = material.textures[TextureSlot::clearcoat]; texture.data != nullptr)
-        s.base_color = factor_of(most * filter_error(texture, 0, facts.largest_uv, facts.measure_rounding), most * least_value(texture, 0));
+        s.base_color = factor_of(most * filter_error(texture, 0, facts.texels), most * least_value(texture, 0, facts.texels));
     return s;
 }
 
@@ -96,8 +96,8 @@ double coat_codes(const CodeCosts& costs, const MaterialPlan& metal, const Shadi
 
 /// Light of the surroundings that sheen reflects; s: the base.
 double around_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const SheenSurface& sheen,
-                    const Surface& s, const ReflectionSteps* reflections, double exposure, double& most) {
-    const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material)));
+                    const Surface& s, const ReflectionSteps* reflections, double exposure, const SceneFacts& facts, double& most) {
+    const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material, facts)));
     // The viewer's side, x / sqrt(x^2 + 0.01) of x = V - (N.V) N, has a slope of at most 10. Directions are no shorter than their height.
     const double side = 10.0 * (2.0 * s.normal_error + 2e-7);
     const double angle = (4.0 * (s.normal_error + side) + sheen.nodes * slopes.direction) / slopes.least_height + 2e-6;
@@ -129,20 +129,20 @@ double around_codes(const CodeCosts& costs, const ShadingPlan& plan, const Mater
 
 SheenSurface sheen_surface(const MaterialPlan& material, double normal_error, const SceneFacts& facts) {
     const SheenPlan& sheen = material.sheen;
-    const double least = least_roughness(material), cosine_error = normal_error + 4e-7;
+    const double least = least_roughness(material, facts), cosine_error = normal_error + 4e-7;
     SheenSurface out{};
     out.color = std::max({sheen.color[0], sheen.color[1], sheen.color[2]});
     out.exponent = 1.0 / (least * least);
     out.most = out.color * (1.0 + 0.5 * out.exponent) * 0.25;  // V2 N.L is at most 1 / 4
     if (const TexturePlan& texture = material.textures[TextureSlot::sheen_roughness]; texture.data != nullptr)
         out.roughness =
-            factor_of(static_cast<double>(sheen.roughness) * filter_error(texture, 3, facts.largest_uv, facts.measure_rounding), least);
+            factor_of(static_cast<double>(sheen.roughness) * filter_error(texture, 3, facts.texels), least);
     out.nodes = (kReflectionNodes - 1) * (out.roughness.absolute + 6.0 * cosine_error) + 1e-5;
     if (const TexturePlan& texture = material.textures[TextureSlot::sheen_color]; texture.data != nullptr) {
         double error = 0.0, least_color = 1.0;
         for (int c = 0; c < 3; ++c) {
-            error = std::max(error, filter_error(texture, c, facts.largest_uv, facts.measure_rounding));
-            least_color = std::min(least_color, least_value(texture, c));
+            error = std::max(error, filter_error(texture, c, facts.texels));
+            least_color = std::min(least_color, least_value(texture, c, facts.texels));
         }
         out.texture = factor_of(error, least_color);
     }
@@ -156,7 +156,7 @@ LayerCosts layer_costs(const CodeCosts& costs, const ShadingPlan& plan, const Ma
     if ((material.stages & kStageSheen) != 0) {
         const SheenSurface sheen = sheen_surface(material, s.normal_error, facts);
         const double strength = sheen.most * light.sum;
-        const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material)));
+        const SheenSlopes slopes = sheen_slopes(first_row(least_roughness(material, facts)));
         // D is A sin^(1/a), whose slope is at most A sqrt(1/a); |1/a ln sin| sin^(1/a) is at most 1/e. N.L + N.V is at least
         // kLeastHalfVector, and so is |L + V|.
         const double direction = s.cosine_error() + kSheenHalfError / double{kLeastHalfVector};
@@ -165,7 +165,7 @@ LayerCosts layer_costs(const CodeCosts& costs, const ShadingPlan& plan, const Ma
         codes += costs.relative(exp_of(std::min(2.0 * sheen.roughness.relative + sheen.nodes * slopes.albedo, 13.0)) - 1.0);
         codes += costs.absolute(strength * 0.74 * sheen.roughness.relative);
         double around = 0.0;
-        if ((material.stages & kStageAmbient) != 0) codes += around_codes(costs, plan, material, sheen, s, reflections, exposure, around);
+        if ((material.stages & kStageAmbient) != 0) codes += around_codes(costs, plan, material, sheen, s, reflections, exposure, facts, around);
         codes += codes_of(costs, sheen.texture, strength + around);
         codes += codes_of(costs, s.passed, strength + around);
         out.codes += codes;

@@ -140,9 +140,9 @@ double film_error(const MaterialPlan& material, double cosine_error, double f0_e
     const double most = std::max(film.thickness_nm, film.thickness_nm + film.thickness_range_nm);
     double thickness_error = 2e-7 * most, share_error = 0.0;
     if (const TexturePlan& texture = material.textures[TextureSlot::iridescence_thickness]; texture.data != nullptr)
-        thickness_error += std::fabs(double{film.thickness_range_nm}) * filter_error(texture, 1, facts.largest_uv, facts.measure_rounding);
+        thickness_error += std::fabs(double{film.thickness_range_nm}) * filter_error(texture, 1, facts.texels);
     if (const TexturePlan& texture = material.textures[TextureSlot::iridescence]; texture.data != nullptr)
-        share_error += static_cast<double>(film.factor) * filter_error(texture, 0, facts.largest_uv, facts.measure_rounding);
+        share_error += static_cast<double>(film.factor) * filter_error(texture, 0, facts.texels);
     if (std::min(film.thickness_nm, film.thickness_nm + film.thickness_range_nm) < 2.0f * kThinFilmNm)
         share_error += thickness_error / double{kThinFilmNm};
     // The waves' turns are rounded: 45 of them at most.
@@ -175,27 +175,27 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     const double dielectric = material.dielectric;
     const auto filtered = [&](const TexturePlan& texture, std::initializer_list<int> channels) {
         double error = 0.0;
-        for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.largest_uv, facts.measure_rounding));
+        for (const int c : channels) error = std::max(error, filter_error(texture, c, facts.texels));
         return error;
     };
     // A factor times a texture's channels.
     const auto textured = [&](const TexturePlan& texture, std::initializer_list<int> channels, double factor) {
         double least = 1.0;
-        for (const int c : channels) least = std::min(least, least_value(texture, c));
+        for (const int c : channels) least = std::min(least, least_value(texture, c, facts.texels));
         return factor_of(factor * filtered(texture, channels), factor * least);
     };
     double least_color = has(kStageVertexColor) ? 0.0 : std::min({red, green, blue}), least_metallic = s.metallic;
     if (has(kStageBaseColorTexture)) {
         s.base_color = textured(material.textures[TextureSlot::base_color], {0, 1, 2}, s.albedo);
         for (const int c : {0, 1, 2})
-            least_color = std::min(least_color, material.base_color[c] * least_value(material.textures[TextureSlot::base_color], c));
+            least_color = std::min(least_color, material.base_color[c] * least_value(material.textures[TextureSlot::base_color], c, facts.texels));
     }
     double roughness = material.roughness;
     if (has(kStageMetallicRoughnessTexture)) {
         const TexturePlan& texture = material.textures[TextureSlot::metallic_roughness];
-        roughness *= least_value(texture, 1);
+        roughness *= least_value(texture, 1, facts.texels);
         s.roughness = factor_of(filtered(texture, {1}) * material.roughness, std::max(roughness, double{kMinRoughness}));
-        least_metallic *= least_value(texture, 2);
+        least_metallic *= least_value(texture, 2, facts.texels);
         const double error = filtered(texture, {2}) * s.metallic;
         const auto f0 = [&](double metallic) { return dielectric + metallic * (least_color - dielectric); };
         s.diffuse = factor_of(error, 1.0 - s.metallic);
@@ -211,7 +211,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     if (has(kStageNormalMap)) {
         // The three components are in [-1, 1], each off by twice its channel's error. The vector is no shorter than its z. Where z may be 0
         // there is no bound: between texels that point away from each other a normal may be as short as one likes.
-        const double z = 2.0 * least_value(material.textures[TextureSlot::normal], 2) - 1.0;
+        const double z = 2.0 * least_value(material.textures[TextureSlot::normal], 2, facts.texels) - 1.0;
         const double error = 2.0 * 1.7320508 * filtered(material.textures[TextureSlot::normal], {0, 1, 2}) *
                              std::max(1.0, std::fabs(double{material.normal_scale}));
         s.normal_error += error < z ? error / (z - error) : 2.0;
@@ -241,7 +241,7 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     if (has(kStageOcclusionTexture)) {
         const double strength = material.occlusion_strength;
         s.occlusion = factor_of(strength * filtered(material.textures[TextureSlot::occlusion], {0}),
-                                1.0 + strength * (least_value(material.textures[TextureSlot::occlusion], 0) - 1.0));
+                                1.0 + strength * (least_value(material.textures[TextureSlot::occlusion], 0, facts.texels) - 1.0));
     }
     if (has(kStageSpecularColor)) {
         // F0 and its weight, the latter at grazing views; the diffuse part lacks the largest F0.

@@ -28,10 +28,17 @@ double most_storage_error(const TexturePlan& texture) {
     return 0.5 + (texture.source->rule() == MipRule::alpha ? 0.51 : 0.51 * levels);
 }
 
+TextureRange range_of(const TexturePlan& texture, const TexelFacts& facts) {
+    constexpr std::uint16_t kMost = 65535;
+    if (facts.measured == TexelFacts::Measured::nothing) return {{}, {kMost, kMost, kMost, kMost}, {kMost, kMost, kMost, kMost}};
+    return texture.source->range();
+}
+
 }  // namespace
 
-double filter_error(const TexturePlan& texture, int c, double largest_uv, bool measured) {
-    const TextureRange& texels = texture.source->range();
+double filter_error(const TexturePlan& texture, int c, const TexelFacts& facts) {
+    const TextureRange texels = range_of(texture, facts);
+    const double largest_uv = facts.largest_uv;
     const double step = texels.step[c] * kUnit, range = (texels.most[c] - texels.least[c]) * kUnit;
     // A filtered value changes by at most one step from a texel to the next, in each direction.
     const double shift = coordinate_error(texture.width[0], texture.transform, texture.row_u, largest_uv) +
@@ -50,9 +57,10 @@ double filter_error(const TexturePlan& texture, int c, double largest_uv, bool m
         ellipse = 3e-5 * std::min(range, 9.0 * step) + 2e-5 * range + std::min((places + 2.0 * 16.0 * 1e-5) * step, range);
     }
     return std::min(shift * step, range) + level + ellipse + 10.0 * kRounding +
-           (measured ? static_cast<double>(texture.source->storage_error()) : most_storage_error(texture)) * kUnit;
+           (facts.measured == TexelFacts::Measured::all ? static_cast<double>(texture.source->storage_error()) : most_storage_error(texture)) *
+               kUnit;
 }
 
-double least_value(const TexturePlan& texture, int c) { return texture.source->range().least[c] * kUnit; }
+double least_value(const TexturePlan& texture, int c, const TexelFacts& facts) { return range_of(texture, facts).least[c] * kUnit; }
 
 }  // namespace halflit::shading

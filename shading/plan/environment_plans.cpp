@@ -113,7 +113,7 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
     const sh::OrderBounds bounds = environment.light != nullptr ? environment.light->order_bounds(lobe) : sh::OrderBounds{};
     EnvironmentPlan plan;
     std::array<double, sh::kMaxBands> codes{};
-    if (order.codes > 0) codes = bounds_in_codes(environment, lobe, bounds, order);
+    if (order.codes > 0 || order.bounded) codes = bounds_in_codes(environment, lobe, bounds, order);
     if (order.codes > 0 && order.fixed == 0) {
         plan.bands = 1;
         while (plan.bands < sh::kMaxBands && codes[static_cast<std::size_t>(plan.bands - 1)] > order.codes) ++plan.bands;
