@@ -30,6 +30,9 @@ tl::unexpected<Error> system_error(const std::string& place, int error) {
     return fail(error == ENOMEM ? ErrorCode::limit : ErrorCode::io, error == EPIPE ? std::string() : place + ": " + errno_text(error));
 }
 
+/// Returns 0 or errno. File systems without fsync give EINVAL or ENOSYS, which count as success.
+int flush(int fd) { return ::fsync(fd) == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno; }
+
 /// The temporary files that exist now, for abandon_files.
 class Pending {
 public:
@@ -77,7 +80,8 @@ public:
         int error = exists ? EEXIST : link(target);
         if (error == EEXIST) {
             ::unlink(temporary.c_str());
-            error = link(temporary);
+            error = exists ? 0 : flush(fd);  // another process has made the target meanwhile
+            if (error == 0) error = link(temporary);
             if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) {
                 error = errno;
                 ::unlink(temporary.c_str());
@@ -156,9 +160,6 @@ int write_in_place(const std::string& path, std::span<const std::uint8_t> bytes,
     return ::close(fd) != 0 && error == 0 ? errno : error;
 }
 
-/// Returns 0 or errno. File systems without fsync give EINVAL or ENOSYS, which count as success.
-int flush(int fd) { return ::fsync(fd) == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno; }
-
 std::string temporary_name(const std::string& target) {
     const std::size_t slash = target.rfind('/');
     const std::string directory = slash == std::string::npos ? "" : target.substr(0, slash + 1);
@@ -167,11 +168,11 @@ std::string temporary_name(const std::string& target) {
     return directory + "." + name + ".halflit-" + std::to_string(::getpid()) + ".tmp";
 }
 
-/// Writes a file that has no name yet. Returns 0 or errno.
-int fill(int fd, std::span<const std::uint8_t> bytes, mode_t mode, bool keep_mode) {
-    if (const int error = write_all(fd, bytes); error != 0) return error;
-    if (keep_mode && ::fchmod(fd, mode) != 0) return errno;
-    return flush(fd);
+/// Writes a file that has no name yet. replaces: it will take the place of one that has this mode, so that it must be on the disk first.
+/// Returns 0 or errno.
+int fill(int fd, std::span<const std::uint8_t> bytes, mode_t mode, bool replaces) {
+    if (const int error = write_all(fd, bytes); error != 0 || !replaces) return error;
+    return ::fchmod(fd, mode) != 0 ? errno : flush(fd);
 }
 
 /// The same as replace_file, by a file without a name. None: the file system, or a system without /proc, cannot do it.

@@ -1,6 +1,6 @@
-// Files that are either old or new, never half written. The bytes are written to a file without a name in the target's folder and flushed
-// to the disk; then the file gets the target's name. Where the system has no such files, a temporary one is renamed. If a step fails, the
-// old file stays.
+// Files that are either old or new, never half written. The bytes are written to a file without a name in the target's folder, and flushed
+// to the disk if there is an old file; then the file gets the target's name. Where the system has no such files, a temporary one is
+// renamed. If a step fails, the old file stays. A new file may be empty after the power has failed.
 #pragma once
 
 #include "halflit/error.hpp"
