@@ -237,3 +237,37 @@ TEST_CASE("models: limits hold for each format", "[io]") {
         CHECK(refusal_of(file, ErrorCode::limit, shorter).find("bytes, the limit is 100") != std::string::npos);
     }
 }
+
+TEST_CASE("formats: the normals of a large model are the same from one thread and from several", "[io][model]") {
+    // Waves, flat steps and sharp ridges, with more places than two threads need.
+    constexpr unsigned kSide = 380;
+    Polyhedron waves;
+    for (unsigned y = 0; y <= kSide; ++y)
+        for (unsigned x = 0; x <= kSide; ++x) {
+            const float height = (x / 16 % 2 == 0 ? 1.0f : 0.0f) + 0.01f * static_cast<float>(x * y % 37);
+            waves.points.push_back({static_cast<float>(x), static_cast<float>(y), height});
+        }
+    for (unsigned y = 0; y < kSide; ++y)
+        for (unsigned x = 0; x < kSide; ++x) {
+            const unsigned at = y * (kSide + 1) + x, below = at + kSide + 1;
+            waves.triangles.push_back({at, at + 1, below});
+            waves.triangles.push_back({at + 1, below + 1, below});
+        }
+    const Bytes file = stl_binary_of(waves, "waves");
+    const auto load = [&](int threads) {
+        LoadOptions options = strictly();
+        options.threads = threads;
+        auto loaded = load_model_bytes(file, "waves.stl", "", options);
+        REQUIRE(loaded);
+        REQUIRE(loaded->scene.meshes.size() == 1);
+        return std::move(loaded->scene.meshes[0]);
+    };
+    const Mesh one = load(1);
+    CHECK(one.positions.size() > waves.points.size());  // the ridges are sharp
+    for (const int threads : {2, 3}) {
+        const Mesh several = load(threads);
+        CHECK(several.positions == one.positions);
+        CHECK(several.normals == one.normals);
+        CHECK(several.indices == one.indices);
+    }
+}

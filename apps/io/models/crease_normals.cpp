@@ -1,5 +1,6 @@
 #include "apps/io/models/crease_normals.hpp"
 
+#include "apps/io/files/in_parts.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -35,7 +36,9 @@ constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2
 /// Makes the normals of one place after the other. All edges that matter to a place begin or end there.
 class NormalMaker {
 public:
-    NormalMaker(Soup& soup, double crease_deg) : soup_(soup), least_cosine_(sin_cos(crease_deg * (kPi / 180)).cos) {}
+    /// normals: those that are made; the first one has the number `first`.
+    NormalMaker(Soup& soup, double crease_deg, std::vector<Vec3f>& normals, std::uint32_t first)
+        : soup_(soup), normals_(normals), first_(first), least_cosine_(sin_cos(crease_deg * (kPi / 180)).cos) {}
 
     void add_normals(std::span<const std::uint32_t> corners) {
         const auto has_normal = [&](std::uint32_t corner) { return soup_.normal_of[corner] != kNone; };
@@ -59,11 +62,11 @@ public:
             if (has_normal(corners[i])) continue;
             Wedge& set = wedges_[root(i)];
             if (set.number == kNone) {
-                set.number = static_cast<std::uint32_t>(soup_.normals.size());
+                set.number = first_ + static_cast<std::uint32_t>(normals_.size());
                 const double size = length(set.sum);
                 Vec3d normal = size > 1e-9 ? set.sum * (1.0 / size) : set.normal;
                 if (normal == Vec3d{}) normal = {0, 0, 1};
-                soup_.normals.push_back(to_float(normal));
+                normals_.push_back(to_float(normal));
             }
             soup_.normal_of[corners[i]] = set.number;
         }
@@ -122,6 +125,8 @@ private:
     }
 
     Soup& soup_;
+    std::vector<Vec3f>& normals_;
+    std::uint32_t first_;
     double least_cosine_;
     std::vector<Wedge> wedges_;
     std::vector<Edge> edges_;
@@ -130,10 +135,27 @@ private:
 
 }  // namespace
 
-void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg) {
+void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg, int threads) {
     soup.normal_of.resize(soup.position_of.size(), kNone);
-    NormalMaker maker(soup, crease_deg);
-    for (std::uint32_t place = 0; place < corners.places(); ++place) maker.add_normals(corners.at(place));
+    const std::size_t parts = parts_of(corners.places(), kPlacesAThread, threads);
+    const auto first = static_cast<std::uint32_t>(soup.normals.size());
+    std::vector<std::vector<Vec3f>> made(parts);
+    in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        NormalMaker maker(soup, crease_deg, made[part], first);
+        for (std::size_t place = begin; place < end; ++place) maker.add_normals(corners.at(static_cast<std::uint32_t>(place)));
+    });
+    // One list of all, in the order of the places.
+    std::vector<std::uint32_t> before{0};
+    for (const std::vector<Vec3f>& normals : made) {
+        before.push_back(before.back() + static_cast<std::uint32_t>(normals.size()));
+        soup.normals.insert(soup.normals.end(), normals.begin(), normals.end());
+    }
+    if (parts == 1) return;
+    in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        for (std::size_t place = begin; place < end; ++place)
+            for (const std::uint32_t corner : corners.at(static_cast<std::uint32_t>(place)))
+                if (soup.normal_of[corner] >= first) soup.normal_of[corner] += before[part];
+    });
 }
 
 }  // namespace halflit::io::detail

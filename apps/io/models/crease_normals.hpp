@@ -9,7 +9,8 @@ namespace halflit::io::detail {
 /// them. Two triangles are smooth across an edge if they are its only ones, turn the same way, and their normals differ by at most
 /// `crease_deg`, or their smoothing groups say so. Around a place, triangles that hang together by such edges share a normal: the mean of
 /// theirs, weighted by their angles there.
-void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg);
+/// threads: as LoadOptions::threads; the result does not depend on it.
+void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg, int threads);
 
 /// The angle between two directions, in radians, from its sine and cosine times any positive number. sine >= 0. Made of + - * / and sqrt
 /// alone; error below 1e-12.

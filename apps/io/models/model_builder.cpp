@@ -128,7 +128,8 @@ std::vector<PartMesh> ModelBuilder::add_meshes(Soup&& soup, std::span<const std:
     std::vector<PartMesh> all;
     Scene& scene = loaded_.scene;
     const Vec3d origin = move_near(soup, document_->options.recentre);
-    for (SoupMesh& made : make_meshes(std::move(soup), static_cast<double>(document_->options.crease_deg), left_out_)) {
+    const LoadOptions& options = document_->options;
+    for (SoupMesh& made : make_meshes(std::move(soup), static_cast<double>(options.crease_deg), options.threads, left_out_)) {
         Mesh& mesh = made.mesh;
         mesh.name = name_of[made.part];
         mesh.material = material_of[made.part];

@@ -20,6 +20,15 @@ class PlaceTable {
 public:
     static constexpr std::uint32_t kEmpty = 0xFFFFFFFFu;
 
+    /// Takes the memory for so many places.
+    void reserve(std::size_t places, const std::vector<V>& list) {
+        const std::size_t size = std::bit_ceil(std::max<std::size_t>(512, places + 1)) * 2;
+        if (size > slots_.size()) spread(size, list);
+    }
+    /// Hint: the position is looked for soon.
+    void prefetch(const V& position) const {
+        if (!slots_.empty()) __builtin_prefetch(&slots_[first_slot(hash_of(bits(position)))]);
+    }
     /// Number of the place of a position: that of an earlier one that equals it, else `number`, below kEmpty. list[n] is the position that
     /// became number n.
     std::uint32_t find(const V& position, std::uint32_t number, const std::vector<V>& list) {

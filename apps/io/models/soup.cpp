@@ -1,5 +1,6 @@
 #include "apps/io/models/soup.hpp"
 
+#include "apps/io/files/in_parts.hpp"
 #include "apps/io/models/crease_normals.hpp"
 #include "apps/io/models/place_table.hpp"
 #include "sh/time_limit.hpp"
@@ -62,31 +63,34 @@ std::size_t remove_bad(Soup& soup, const std::vector<std::uint32_t>& place) {
 }
 
 /// Of each corner, the lowest one that is the same vertex: of the same place, part, normal, texture coordinates and colour.
-std::vector<std::uint32_t> find_vertices(const Soup& soup, const CornersOfPlaces& corners) {
+std::vector<std::uint32_t> find_vertices(const Soup& soup, const CornersOfPlaces& corners, int threads) {
     struct Key {
         std::uint32_t part, normal, uv, color, corner;
         [[nodiscard]] auto values() const { return std::tie(part, normal, uv, color); }
     };
     const auto number_at = [](const std::vector<std::uint32_t>& list, std::size_t at) { return list.empty() ? kNone : list[at]; };
     std::vector<std::uint32_t> vertex(soup.position_of.size());
-    std::vector<Key> keys;
-    TimeCheck check;
-    for (std::uint32_t place = 0; place < corners.places(); ++place) {
-        keys.clear();
-        for (const std::uint32_t corner : corners.at(place)) {
-            check();
-            keys.push_back({number_at(soup.part_of, corner / 3), soup.normal_of[corner], number_at(soup.uv_of, corner),
-                            number_at(soup.color_of, corner), corner});
+    const auto find = [&](std::size_t /*part*/, std::size_t begin, std::size_t end) {
+        std::vector<Key> keys;
+        TimeCheck check;
+        for (std::size_t place = begin; place < end; ++place) {
+            keys.clear();
+            for (const std::uint32_t corner : corners.at(static_cast<std::uint32_t>(place))) {
+                check();
+                keys.push_back({number_at(soup.part_of, corner / 3), soup.normal_of[corner], number_at(soup.uv_of, corner),
+                                number_at(soup.color_of, corner), corner});
+            }
+            std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+                check();
+                return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values();
+            });
+            for (std::size_t i = 0; i < keys.size(); ++i) {
+                const bool same = i > 0 && keys[i].values() == keys[i - 1].values();
+                vertex[keys[i].corner] = same ? vertex[keys[i - 1].corner] : keys[i].corner;
+            }
         }
-        std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-            check();
-            return a.values() == b.values() ? a.corner < b.corner : a.values() < b.values();
-        });
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            const bool same = i > 0 && keys[i].values() == keys[i - 1].values();
-            vertex[keys[i].corner] = same ? vertex[keys[i - 1].corner] : keys[i].corner;
-        }
-    }
+    };
+    in_parts(corners.places(), parts_of(corners.places(), kPlacesAThread, threads), find);
     return vertex;
 }
 
@@ -191,7 +195,7 @@ CornersOfPlaces::CornersOfPlaces(const std::vector<std::uint32_t>& place_of, std
     first_.push_back(static_cast<std::uint32_t>(place_of.size()));
 }
 
-std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, std::size_t& left_out) {
+std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, int threads, std::size_t& left_out) {
     check_time();
     std::vector<SoupMesh> meshes;
     for (auto* list : {&soup.normal_of, &soup.uv_of, &soup.color_of})
@@ -209,8 +213,8 @@ std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, std::size_t& l
     {
         const CornersOfPlaces corners(soup.position_of, soup.points.size());
         check_time();
-        add_crease_normals(soup, corners, crease_deg);
-        vertices = find_vertices(soup, corners);
+        add_crease_normals(soup, corners, crease_deg, threads);
+        vertices = find_vertices(soup, corners, threads);
     }
 
     MeshMaker maker(soup, std::move(vertices));

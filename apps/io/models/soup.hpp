@@ -53,6 +53,9 @@ struct SoupMesh {
     Mesh mesh;  ///< without name and material
 };
 
+/// Places that are worth a thread: they take it some 10 ms.
+inline constexpr std::size_t kPlacesAThread = 1 << 16;
+
 /// Memory that make_meshes takes for each triangle, with the mesh itself. Readers take it from the budget as triangles are added.
 inline constexpr std::uint64_t kTriangleBytes = 260;
 
@@ -71,6 +74,6 @@ inline constexpr std::uint64_t kTriangleBytes = 260;
 /// the mean of their neighbours', weighted by angle, across edges that are not sharper than `crease_deg`. Triangles that are not finite,
 /// that lie on a line between two places, or that are a point, are left out; `left_out` counts the first kind. Requires: indices in range,
 /// and points.
-[[nodiscard]] std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, std::size_t& left_out);
+[[nodiscard]] std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, int threads, std::size_t& left_out);
 
 }  // namespace halflit::io::detail

@@ -165,19 +165,25 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
 
     Soup soup;
     PlaceTable<Vec3d> places;
-    soup.positions.reserve(static_cast<std::size_t>(count / 2 + 2));  // as many as a closed body has
+    const auto of_closed_body = static_cast<std::size_t>(count / 2 + 2);
+    soup.positions.reserve(of_closed_body);
+    places.reserve(of_closed_body, soup.positions);
     soup.distinct = true;
     soup.position_of.reserve(static_cast<std::size_t>(3 * count));
     std::vector<std::uint32_t> index_of;  // of a colour by its number
     constexpr std::uint32_t kWhole = 0x8000;
     if (has_colors) index_of.assign(kWhole + 1, kNone);
+    const auto corner = [&](std::size_t t, std::size_t c) {
+        const std::size_t at = kHeader + kRecord * t + 12 + 12 * c;
+        const auto coordinate = [&](std::size_t k) -> double { return std::bit_cast<float>(u32_at(bytes, at + 4 * k)); };
+        return Vec3d{coordinate(0), coordinate(1), coordinate(2)};
+    };
+    constexpr std::size_t kAhead = 8;  // triangles
     for (std::size_t t = 0; t < count; ++t) {
         if (t % 65536 == 0) check_time();
-        const std::size_t at = kHeader + kRecord * t + 12;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto coordinate = [&](std::size_t k) -> double { return std::bit_cast<float>(u32_at(bytes, at + 12 * c + 4 * k)); };
-            soup.position_of.push_back(places.add({coordinate(0), coordinate(1), coordinate(2)}, soup.positions));
-        }
+        if (t + kAhead < count)
+            for (std::size_t c = 0; c < 3; ++c) places.prefetch(corner(t + kAhead, c));
+        for (std::size_t c = 0; c < 3; ++c) soup.position_of.push_back(places.add(corner(t, c), soup.positions));
         if (!has_colors) continue;
         const std::uint32_t number = std::min(colors.number_of(attribute_of(t)), kWhole);
         if (index_of[number] == kNone) {
