@@ -1,60 +1,105 @@
 #include "shading/moment_levels.hpp"
 
-#include "sh/vec3d.hpp"
 #include "shading/texture_texels.hpp"
 
 #include <cmath>
 
-namespace halflit {
+// Loops over whole rows, each over lists of one number, which the compiler does for several texels at a time.
 
-MomentLevels::Texel MomentLevels::level_0(const std::uint16_t* texel) const {
-    const double r = texel[0], g = texel[1], b = texel[2], a = texel[3];
-    if (rule_ == MipRule::alpha) return {{r * a, g * a, b * a}, a, {r, g, b}};
-    const double x = r * (2.0 / 65535.0) - 1.0, y = g * (2.0 / 65535.0) - 1.0, z = b * (2.0 / 65535.0) - 1.0;
-    const double length = std::sqrt(x * x + y * y + z * z);
-    if (!(length > 0.0)) return {{0.0, 0.0, 1.0}, 1.0, {}};
-    return {{x / length, y / length, z / length}, 1.0, {}};
+namespace halflit {
+namespace {
+
+std::uint16_t rounded(double value) { return static_cast<std::uint16_t>(static_cast<std::int32_t>(value < 65535.0 ? value + 0.5 : 65535.0)); }
+
+void read_normals(const std::uint16_t* texels, int width, double* x, double* y, double* z) {
+    constexpr double kUnit = 2.0 / 65535.0;
+    for (int i = 0; i < width; ++i) {
+        x[i] = texels[4 * i] * kUnit - 1.0;
+        y[i] = texels[4 * i + 1] * kUnit - 1.0;
+        z[i] = texels[4 * i + 2] * kUnit - 1.0;
+    }
+    for (int i = 0; i < width; ++i) {
+        const double length = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+        const bool has_length = length > 0.0;
+        x[i] = has_length ? x[i] / length : 0.0;
+        y[i] = has_length ? y[i] / length : 0.0;
+        z[i] = has_length ? z[i] / length : 1.0;
+    }
 }
 
-void MomentLevels::write(const Texel& mean, std::uint16_t* out) const {
-    const auto rounded = [](double value) { return static_cast<std::uint16_t>(value < 65535.0 ? value + 0.5 : 65535.0); };
+/// [Tok05]: 1 / s grows by (1 - l) / l, l being the mean's length, and alpha^2 is 2 / s.
+void write_lost(const double* x, const double* y, const double* z, int width, std::uint16_t* out) {
+    for (int i = 0; i < width; ++i) {
+        const double l = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+        const double lost = 65535.0 * std::sqrt(2.0 * (1.0 - l) / l);
+        out[4 * i + 3] = rounded(l < 1.0 ? l > 0.0 ? lost : 65535.0 : 0.0);
+    }
+}
+
+/// Means of 2 x 2 numbers; the products are exact.
+void halve(const double* upper, const double* lower, int width, double* to) {
+    for (int i = 0; i < width; ++i)
+        to[i] = ((0.25 * upper[2 * i] + 0.25 * upper[2 * i + 1]) + 0.25 * lower[2 * i]) + 0.25 * lower[2 * i + 1];
+}
+
+}  // namespace
+
+void MomentLevels::read_level_0(const std::uint16_t* texels, int width, Row& out) const {
+    for (int k = 0; k < numbers(); ++k) out.mean[k].resize(static_cast<std::size_t>(width));
+    auto& mean = out.mean;
     if (rule_ == MipRule::normal) {
-        // [Tok05]: 1 / s grows by (1 - l) / l, l being the mean's length, and alpha^2 is 2 / s.
-        const Vec3d n{mean.first[0], mean.first[1], mean.first[2]};
-        const double l = std::sqrt(dot(n, n));
-        out[3] = rounded(l < 1.0 ? l > 0.0 ? 65535.0 * std::sqrt(2.0 * (1.0 - l) / l) : 65535.0 : 0.0);
+        read_normals(texels, width, mean[0].data(), mean[1].data(), mean[2].data());
         return;
     }
-    for (int c = 0; c < 3; ++c) out[c] = rounded(mean.second > 0.0 ? mean.first[c] / mean.second : mean.color[c]);
-    out[3] = rounded(mean.second);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(width); ++i, texels += 4) {
+        const double alpha = texels[3];
+        for (int c = 0; c < 3; ++c) mean[c][i] = texels[c] * alpha, mean[4 + c][i] = texels[c];
+        mean[3][i] = alpha;
+    }
+}
+
+void MomentLevels::write(const Row& row, int width, std::uint16_t* out) const {
+    const auto& mean = row.mean;
+    if (rule_ == MipRule::normal) {
+        write_lost(mean[0].data(), mean[1].data(), mean[2].data(), width, out);
+        return;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(width); ++i, out += 4) {
+        const double alpha = mean[3][i];
+        for (int c = 0; c < 3; ++c) out[c] = rounded(alpha > 0.0 ? mean[c][i] / alpha : mean[4 + c][i]);
+        out[3] = rounded(alpha);
+    }
 }
 
 void MomentLevels::reduce(const std::uint16_t* const (&from)[3], const TextureLevel& large, std::size_t to, const TextureLevel& small,
                           int y, std::uint16_t* out) {
     const Box rows = box_of(y, large.height);
-    const auto texel_at = [&](std::int64_t i, std::int64_t j) -> Texel {
-        if (to > 1) return row(to - 1, static_cast<int>(rows.first + j))[static_cast<std::size_t>(i)];
-        return level_0(from[j] + 4 * i);
-    };
-    std::vector<Texel>& made = row(to, y);
-    made.resize(static_cast<std::size_t>(small.width));
-    for (int x = 0; x < small.width; ++x, out += 4) {
-        const Box columns = box_of(x, large.width);
-        const double total = static_cast<double>(rows.total * columns.total);
-        Texel mean{};
-        for (std::int64_t j = 0; j < rows.count; ++j)
-            for (std::int64_t i = 0; i < columns.count; ++i) {
-                const double share = static_cast<double>(rows.weight[j] * columns.weight[i]) / total;
-                const Texel texel = texel_at(columns.first + i, j);
-                for (int c = 0; c < 3; ++c) {
-                    mean.first[c] += share * texel.first[c];
-                    mean.color[c] += share * texel.color[c];
-                }
-                mean.second += share * texel.second;
-            }
-        made[static_cast<std::size_t>(x)] = mean;
-        write(mean, out);
+    const Row* above[3] = {};
+    for (std::int64_t j = 0; j < rows.count; ++j) {
+        Row& source = row(to - 1, static_cast<int>(rows.first + j));
+        if (to == 1) read_level_0(from[j], large.width, source);
+        above[j] = &source;
     }
+    Row& made = row(to, y);
+    for (int k = 0; k < numbers(); ++k) {
+        made.mean[k].resize(static_cast<std::size_t>(small.width));
+        double* const mean = made.mean[k].data();
+        if (rows.count == 2 && large.width % 2 == 0) {
+            halve(above[0]->mean[k].data(), above[1]->mean[k].data(), small.width, mean);
+            continue;
+        }
+        for (int x = 0; x < small.width; ++x) {
+            const Box columns = box_of(x, large.width);
+            const double total = static_cast<double>(rows.total * columns.total);
+            double sum = 0.0;
+            for (std::int64_t j = 0; j < rows.count; ++j)
+                for (std::int64_t i = 0; i < columns.count; ++i)
+                    sum += static_cast<double>(rows.weight[j] * columns.weight[i]) / total *
+                           above[j]->mean[k][static_cast<std::size_t>(columns.first + i)];
+            mean[x] = sum;
+        }
+    }
+    write(made, small.width, out);
 }
 
 }  // namespace halflit

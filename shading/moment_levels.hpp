@@ -20,22 +20,23 @@ public:
                 std::uint16_t* out);
 
 private:
-    /// Means over a texel. By alpha: of colour times alpha, of alpha, and of colour, which counts where alpha is 0 all over. Of normals:
-    /// the first, of unit length in level 0.
-    struct Texel {
-        double first[3], second, color[3];
+    /// Means over the texels of a row, a list for each number. By alpha: of colour times alpha, of alpha, and of colour, which counts where
+    /// alpha is 0 all over. Of normals: their three components, of unit length in level 0.
+    struct Row {
+        std::vector<double> mean[7];
     };
     static constexpr int kRows = 4;  ///< a row reads up to three of the level above
 
     struct Rows {
-        std::vector<Texel> row[kRows];
+        Row row[kRows];
     };
-    [[nodiscard]] std::vector<Texel>& row(std::size_t level, int y) { return rows_[level].row[y % kRows]; }
-    [[nodiscard]] Texel level_0(const std::uint16_t* texel) const;
-    void write(const Texel& mean, std::uint16_t* out) const;
+    [[nodiscard]] int numbers() const { return rule_ == MipRule::normal ? 3 : 7; }
+    [[nodiscard]] Row& row(std::size_t level, int y) { return rows_[level].row[y % kRows]; }
+    void read_level_0(const std::uint16_t* texels, int width, Row& out) const;
+    void write(const Row& row, int width, std::uint16_t* out) const;
 
     MipRule rule_;
-    std::vector<Rows> rows_;  ///< of each level, the last ones; none of level 0
+    std::vector<Rows> rows_;  ///< of each level, the last ones; of level 0, those that are read at a time
 };
 
 }  // namespace halflit
