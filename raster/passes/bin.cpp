@@ -219,6 +219,7 @@ private:
     /// v, a, b, c: in the order of positive area.
     void add_record(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, bool back,
                     const TileGrid::Tiles& tiles, const Source& source) {
+        if (is_hidden_by_last(a, b, c, source.draw)) return;
         const auto record = static_cast<std::uint32_t>(chunk_.records.size());
         chunk_.records.push_back({{v[0], v[1], v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
         if (in_.numbered) chunk_.numbers.push_back(source.draw.triangle_base + source.triangle);
@@ -240,6 +241,21 @@ private:
             chunk_.listed = false;
             chunk_.drop_lists();
         }
+    }
+
+    /// True if the triangle before it is equal, in corners and material, and hides it: of equal depths the first stays. Files hold copies
+    /// of surfaces, by thousands where somebody means ill.
+    [[nodiscard]] bool is_hidden_by_last(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Draw& draw) const {
+        if (chunk_.records.empty()) return false;
+        const TriangleRecord& last = chunk_.records.back();
+        const auto is = [&](int k, const ScreenVertex& other) {
+            const std::uint32_t v = last.vertex[k];
+            const ScreenVertex& own = v < kClipVertex ? in_.screen[v] : chunk_.clip_screen[v - kClipVertex];
+            return own.x == other.x && own.y == other.y && own.z == other.z && own.inv_w == other.inv_w;
+        };
+        if (!is(0, a) || !is(1, b) || !is(2, c)) return false;
+        const Draw& of_last = in_.draws[last.draw_and_back >> 1];
+        return of_last.material == draw.material && draw.alpha_mode == AlphaMode::opaque && of_last.alpha_mode == AlphaMode::opaque;
     }
 
     /// True if the triangle covers the sample at (x, y) in fixed point, by the top-left rule. a, b, c: in the order of positive area.

@@ -135,3 +135,53 @@ TEST_CASE("limits: triangles that touch hundreds of tiles each are drawn without
     Bytes pixels;
     REQUIRE(draw(renderer, many, pixels, 2048, {.tile_size = 16, .memory_limit = 64'000'000}));
 }
+
+TEST_CASE("limits: copies of an opaque triangle are drawn once, and those that blend or have another material are not left out", "[raster]") {
+    constexpr int kWidth = 64, kHeight = 48, kCopies = 20'000;
+    const auto scene_of = [](int copies, AlphaMode mode, bool own_corners, float second_red) {
+        Scene scene;
+        Material material;
+        material.alpha_mode = mode;
+        material.base_color = {0.5f, 0.25f, 0.125f, mode == AlphaMode::blend ? 0.25f : 1.0f};
+        scene.materials = {material, material};
+        scene.materials[1].base_color.x = second_red;
+        Mesh mesh;
+        mesh.material = 0;
+        for (int i = 0; i < copies; ++i) {
+            const auto first = static_cast<std::uint32_t>(own_corners ? 3 * i : 0);
+            if (own_corners || i == 0) mesh.positions.insert(mesh.positions.end(), {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
+            mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+        }
+        mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
+        scene.meshes = {mesh, mesh};
+        scene.meshes[1].material = 1;
+        scene.instances = {{0, {}}, {1, {}}};
+        Light light;
+        light.direction_ws = {0, 0, -1};
+        scene.lights = {light};
+        return scene;
+    };
+    Camera camera;
+    camera.world_from_camera.c[3] = {0, 0, 3, 1};
+    const auto draw = [&](const Scene& scene, std::vector<std::uint32_t>& codes) {
+        codes.resize(kWidth * kHeight);
+        const auto report =
+            render(scene, camera, {}, {.width = kWidth, .height = kHeight, .pixels = reinterpret_cast<std::uint8_t*>(codes.data())});
+        REQUIRE(report);
+        return report->triangles_drawn;
+    };
+    std::vector<std::uint32_t> one, many;
+    for (const bool own_corners : {false, true}) {
+        (void)draw(scene_of(1, AlphaMode::opaque, own_corners, 0.9f), one);
+        CHECK(draw(scene_of(kCopies, AlphaMode::opaque, own_corners, 0.9f), many) < 100);  // one of each chunk
+        CHECK(one == many);
+    }
+    // Two layers of a quarter each are not one.
+    (void)draw(scene_of(1, AlphaMode::blend, false, 0.5f), one);
+    CHECK(draw(scene_of(2, AlphaMode::blend, false, 0.5f), many) == 4);
+    CHECK(one != many);
+    // The first material hides the second.
+    (void)draw(scene_of(1, AlphaMode::opaque, false, 0.9f), one);
+    (void)draw(scene_of(1, AlphaMode::opaque, false, 0.1f), many);
+    CHECK(one == many);
+}
