@@ -9,7 +9,9 @@
 namespace halflit {
 namespace {
 
-std::uint16_t rounded(double value) { return static_cast<std::uint16_t>(static_cast<std::int32_t>(value < 65535.0 ? value + 0.5 : 65535.0)); }
+std::uint16_t rounded(double value) {
+    return static_cast<std::uint16_t>(static_cast<std::int32_t>(value < 65535.0 ? value + 0.5 : 65535.0));
+}
 
 void read_normals(const std::uint16_t* texels, int width, double* x, double* y, double* z) {
     constexpr double kUnit = 2.0 / 65535.0;

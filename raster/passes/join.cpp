@@ -47,7 +47,8 @@ private:
             }
         if (common == 0) return pair;
         const SurfacePairs::Shape first = shape_of(a, of_a, chunk_a), second = shape_of(b, of_b, chunk_b);
-        if (!(first.large && second.large) && ((first.unlike & edges_at(common)) | (second.unlike & edges_at(common_of_b))) != 0) return pair;
+        if (!(first.large && second.large) && ((first.unlike & edges_at(common)) | (second.unlike & edges_at(common_of_b))) != 0)
+            return pair;
         pair.kind = SurfacePairs::Kind::one;
         if (common == 1 || common == 2 || common == 4) {
             const ScreenVertex& at = vertex_of(geometry_.source(chunk_a), of_a.vertex[common >> 1]);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "shading/budget/power_fit.hpp"
-#include "shading/budget/texture_bounds.hpp"
 #include "shading/budget/shares.hpp"
+#include "shading/budget/texture_bounds.hpp"
 #include "shading/model/code_costs.hpp"
 #include "shading/plan/plan.hpp"
 
@@ -34,8 +34,8 @@ struct SceneFacts {
 /// Chooses the cheapest polynomials, cutoff radii and thresholds whose bounds, with those of float32 and of the bands, stay below
 /// `budget_codes` for each material, after the tone curve of `costs`. Writes plan.error. Shadows and the visible surfaces of a pixel are
 /// taken as given, and so is that no material is looked through. Light that is computed once a vertex or a triangle has no
-/// bound. Fits are looked up in `fits`, and added there where missing. A budget of 0 changes nothing, so that plan.error is the bound of the
-/// exact plan, with curves of exact_highlight().
+/// bound. Fits are looked up in `fits`, and added there where missing. A budget of 0 changes nothing, so that plan.error is the bound of
+/// the exact plan, with curves of exact_highlight().
 void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
                         PowerFits& fits);
 

@@ -135,8 +135,7 @@ SheenSurface sheen_surface(const MaterialPlan& material, double normal_error, co
     out.exponent = 1.0 / (least * least);
     out.most = out.color * (1.0 + 0.5 * out.exponent) * 0.25;  // V2 N.L is at most 1 / 4
     if (const TexturePlan& texture = material.textures[TextureSlot::sheen_roughness]; texture.data != nullptr)
-        out.roughness =
-            factor_of(static_cast<double>(sheen.roughness) * filter_error(texture, 3, facts.texels), least);
+        out.roughness = factor_of(static_cast<double>(sheen.roughness) * filter_error(texture, 3, facts.texels), least);
     out.nodes = (kReflectionNodes - 1) * (out.roughness.absolute + 6.0 * cosine_error) + 1e-5;
     if (const TexturePlan& texture = material.textures[TextureSlot::sheen_color]; texture.data != nullptr) {
         double error = 0.0, least_color = 1.0;
@@ -165,7 +164,8 @@ LayerCosts layer_costs(const CodeCosts& costs, const ShadingPlan& plan, const Ma
         codes += costs.relative(exp_of(std::min(2.0 * sheen.roughness.relative + sheen.nodes * slopes.albedo, 13.0)) - 1.0);
         codes += costs.absolute(strength * 0.74 * sheen.roughness.relative);
         double around = 0.0;
-        if ((material.stages & kStageAmbient) != 0) codes += around_codes(costs, plan, material, sheen, s, reflections, exposure, facts, around);
+        if ((material.stages & kStageAmbient) != 0)
+            codes += around_codes(costs, plan, material, sheen, s, reflections, exposure, facts, around);
         codes += codes_of(costs, sheen.texture, strength + around);
         codes += codes_of(costs, s.passed, strength + around);
         out.codes += codes;

@@ -188,7 +188,8 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
     if (has(kStageBaseColorTexture)) {
         s.base_color = textured(material.textures[TextureSlot::base_color], {0, 1, 2}, s.albedo);
         for (const int c : {0, 1, 2})
-            least_color = std::min(least_color, material.base_color[c] * least_value(material.textures[TextureSlot::base_color], c, facts.texels));
+            least_color =
+                std::min(least_color, material.base_color[c] * least_value(material.textures[TextureSlot::base_color], c, facts.texels));
     }
     double roughness = material.roughness;
     if (has(kStageMetallicRoughnessTexture)) {

@@ -57,7 +57,8 @@ double filter_error(const TexturePlan& texture, int c, const TexelFacts& facts) 
         ellipse = 3e-5 * std::min(range, 9.0 * step) + 2e-5 * range + std::min((places + 2.0 * 16.0 * 1e-5) * step, range);
     }
     return std::min(shift * step, range) + level + ellipse + 10.0 * kRounding +
-           (facts.measured == TexelFacts::Measured::all ? static_cast<double>(texture.source->storage_error()) : most_storage_error(texture)) *
+           (facts.measured == TexelFacts::Measured::all ? static_cast<double>(texture.source->storage_error())
+                                                        : most_storage_error(texture)) *
                kUnit;
 }
 

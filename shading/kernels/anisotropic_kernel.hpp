@@ -40,8 +40,8 @@ HALFLIT_INLINE Ellipse ellipse_of(const shading::TexturePlan& texture, const Tex
 
 /// Taps of the probes along footprints. Probes that a lane has not have the weight 0 there.
 struct ProbeTaps {
-    int pairs;   ///< probes at either side of the middle one, in the lane that has most
-    bool plain;  ///< at all probes the right corners follow the left ones in memory, in all lanes
+    int pairs;                                   ///< probes at either side of the middle one, in the lane that has most
+    bool plain;                                  ///< at all probes the right corners follow the left ones in memory, in all lanes
     PlaceTaps at[1 + shading::kMostAnisotropy];  ///< the middle; then a probe before it and one behind it for each pair
     alignas(64) float weight[shading::kMostAnisotropy / 2][kWidth];
     alignas(64) float ratio[kWidth];
@@ -120,7 +120,7 @@ HALFLIT_INLINE Sample sample_texture(const shading::TexturePlan& texture, const 
         ProbeTaps& probes = taps.probes;
         if (taps.probes_of != texture.taps) make_probes(texture, block, lane, probes);
         taps.probes_of = texture.taps;
-        const Sample sum = !probes.plain                ? sum_of_probes(texture.data, probes)
+        const Sample sum = !probes.plain             ? sum_of_probes(texture.data, probes)
                            : probes.at[0].two_levels ? sum_of_plain<true>(texture.data, probes)
                                                      : sum_of_plain<false>(texture.data, probes);
         return probes.pairs == 0 ? sum : scaled(sum, vdiv(F(1.0f), load(probes.ratio)));

@@ -117,7 +117,8 @@ HALFLIT_INLINE TapWeights weights_of(const MapTaps& taps, int lane) { return {ta
     map_taps(map, at, round_to_int(low) + I(1), coarse);
     Q records[kWidth];
     for (int l = 0; l < kWidth; ++l)
-        records[l] = trilinear(rows_of(map.rgba, fine, l), rows_of(map.rgba, coarse, l), weights_of(fine, l), weights_of(coarse, l), between[l]);
+        records[l] =
+            trilinear(rows_of(map.rgba, fine, l), rows_of(map.rgba, coarse, l), weights_of(fine, l), weights_of(coarse, l), between[l]);
     V3 out;
     F unused;
     lanes_of_records(records, out.x, out.y, out.z, unused);

@@ -151,7 +151,9 @@ HALFLIT_INLINE I vmin(I a, I b) { return _mm512_min_epi32(a, b); }
 HALFLIT_INLINE I vmax(I a, I b) { return _mm512_max_epi32(a, b); }
 HALFLIT_INLINE F gather(const float* base, I index) { return _mm512_i32gather_ps(index, base, 4); }
 HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return _mm512_i32gather_epi32(index, base, 4); }
-HALFLIT_INLINE F look_up8(const float* table, I index) { return _mm512_permutexvar_ps(index, _mm512_castps256_ps512(_mm256_loadu_ps(table))); }
+HALFLIT_INLINE F look_up8(const float* table, I index) {
+    return _mm512_permutexvar_ps(index, _mm512_castps256_ps512(_mm256_loadu_ps(table)));
+}
 HALFLIT_INLINE I look_up8(const std::int32_t* table, I index) {
     const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(table));
     return _mm512_permutexvar_epi32(index, _mm512_castsi256_si512(values));

@@ -1,5 +1,5 @@
-// The vocabulary's filters of records of four channels, unsigned 16-bit numbers or floats, two neighbours in a row by one load. Every set computes
-// the same lerps a + w (b - a), in the order down, right, between levels; a weight of 0 gives exactly a.
+// The vocabulary's filters of records of four channels, unsigned 16-bit numbers or floats, two neighbours in a row by one load. Every set
+// computes the same lerps a + w (b - a), in the order down, right, between levels; a weight of 0 gives exactly a.
 #pragma once
 
 #include "shading/kernels/simd_records.hpp"

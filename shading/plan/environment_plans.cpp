@@ -37,8 +37,7 @@ std::array<double, sh::kMaxBands> newton_form_about_nodes(const float* coefficie
 /// other light added.
 std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment, const sh::WrapLobe& lobe, const sh::OrderBounds& bounds,
                                                   const EnvironmentOrder& order) {
-    const LightRange range =
-        environment.light != nullptr ? environment.light->range(lobe) : light_range(environment.radiance, lobe);
+    const LightRange range = environment.light != nullptr ? environment.light->range(lobe) : light_range(environment.radiance, lobe);
     const double least[3] = {range.least.x, range.least.y, range.least.z};
     const Vec3d rest = bounds.by_order[sh::kMaxBands - 1];
     std::array<double, sh::kMaxBands> codes{};

@@ -117,8 +117,8 @@ MirrorRow mirror_row(float roughness) {
     // The operations are those of the kernel where the roughness varies, and in its order.
     const float row = roughness * static_cast<float>(kLast), low = std::min(__builtin_floorf(row), static_cast<float>(kLast - 1));
     const float down = row - low;
-    const ReflectionShape *const upper = kReflectionShapes + static_cast<int>(low) * kReflectionNodes,
-                                 *const lower = upper + kReflectionNodes;
+    const ReflectionShape *const upper = kReflectionShapes + static_cast<int>(low) * kReflectionNodes, *const lower =
+                                                                                                           upper + kReflectionNodes;
     MirrorRow out;
     out.at_one_roughness = true;
     for (int j = 0; j < kReflectionNodes; ++j) {

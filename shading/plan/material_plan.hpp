@@ -68,7 +68,7 @@ struct AnisotropyPlan {
 
 /// kReflectionShapes between two of its rows, at a material's one roughness.
 struct MirrorRow {
-    bool at_one_roughness = false;          ///< false: the roughness differs from fragment to fragment, and the rest is not set
+    bool at_one_roughness = false;           ///< false: the roughness differs from fragment to fragment, and the rest is not set
     float values[7][kReflectionNodes] = {};  ///< by the order of ReflectionShape's numbers
 };
 [[nodiscard]] MirrorRow mirror_row(float roughness);

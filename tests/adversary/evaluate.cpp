@@ -113,8 +113,7 @@ Verdict Judge::judge_share(const Trial& trial, const ShareBudget& budget) {
     };
     const auto prepared = PreparedScene::make(trial.scene);
     if (!prepared) return fail(prepared.error());
-    const auto measured =
-        Renderer::measure(*prepared, trial.scene, trial.camera, full, budget, kWidth, kHeight, nullptr, execution);
+    const auto measured = Renderer::measure(*prepared, trial.scene, trial.camera, full, budget, kWidth, kHeight, nullptr, execution);
     if (!measured) return fail(measured.error());
     const Settings cheaper = with_share(full, *measured);
     if (cheaper == full) return verdict;

@@ -40,9 +40,7 @@ struct Verdict {
     [[nodiscard]] Term term() const;
     [[nodiscard]] bool broken() const { return ratio > 1.0; }
     /// True if the picture had something to keep: a bound below 255 codes, or a share.
-    [[nodiscard]] bool promised() const {
-        return promise == Promise::share ? claimed < 100.0 : bound.codes > 0.0 && bound.codes < 255.0;
-    }
+    [[nodiscard]] bool promised() const { return promise == Promise::share ? claimed < 100.0 : bound.codes > 0.0 && bound.codes < 255.0; }
 };
 
 /// Draws trials, one after the other. Keeps renderers, for what they remember of environments.

@@ -9,8 +9,8 @@ namespace halflit::adversary {
 std::string text_of(const Verdict& v) {
     char text[500];
     if (v.promise == Promise::share) {
-        std::snprintf(text, sizeof text, "ratio %.4g: %.4g %% of the pixels within %.4g codes, %.4g %% claimed", v.ratio, v.held, v.measured,
-                      v.claimed);
+        std::snprintf(text, sizeof text, "ratio %.4g: %.4g %% of the pixels within %.4g codes, %.4g %% claimed", v.ratio, v.held,
+                      v.measured, v.claimed);
         return text;
     }
     std::snprintf(
@@ -25,13 +25,12 @@ std::string text_of(const Verdict& v) {
 
 std::string text_of(const SearchResult& r) {
     char text[300];
-    std::snprintf(
-        text, sizeof text,
-        "%llu scenes in %.1f s (%.0f a second), %llu with a promise, %llu of them within their budget, %llu refused; %zu "
-        "climbs ended above 1, worst ratio %.4g",
-        static_cast<unsigned long long>(r.scenes), r.seconds, static_cast<double>(r.scenes) / r.seconds,
-        static_cast<unsigned long long>(r.drawn), static_cast<unsigned long long>(r.within), static_cast<unsigned long long>(r.refused),
-        r.broken.size(), r.worst.verdict.ratio);
+    std::snprintf(text, sizeof text,
+                  "%llu scenes in %.1f s (%.0f a second), %llu with a promise, %llu of them within their budget, %llu refused; %zu "
+                  "climbs ended above 1, worst ratio %.4g",
+                  static_cast<unsigned long long>(r.scenes), r.seconds, static_cast<double>(r.scenes) / r.seconds,
+                  static_cast<unsigned long long>(r.drawn), static_cast<unsigned long long>(r.within),
+                  static_cast<unsigned long long>(r.refused), r.broken.size(), r.worst.verdict.ratio);
     std::string out = text;
     if (r.worst.verdict.promise == Promise::share)
         return out + "\n  random scenes: " + std::to_string(r.fresh) + " claims, " + std::to_string(r.fresh_broken) +

@@ -28,8 +28,9 @@ struct Found {
 };
 
 struct SearchResult {
-    std::uint64_t scenes = 0, drawn = 0, refused = 0, within = 0;  ///< drawn: with a bound below 255 codes and a surface in view, or a share
-    std::uint64_t fresh = 0, fresh_broken = 0;                     ///< of the random scenes that were drawn: all, and with a broken promise
+    std::uint64_t scenes = 0, drawn = 0, refused = 0,
+                  within = 0;                   ///< drawn: with a bound below 255 codes and a surface in view, or a share
+    std::uint64_t fresh = 0, fresh_broken = 0;  ///< of the random scenes that were drawn: all, and with a broken promise
     double seconds = 0;
     Found worst;                  ///< largest ratio of all
     Found worst_of_term[kTerms];  ///< by the largest part of the bound

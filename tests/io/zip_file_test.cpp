@@ -1,6 +1,6 @@
 // ZIP files: what is in them, and what is refused.
-#include "apps/io/files/load_failure.hpp"
 #include "apps/io/files/zip_file.hpp"
+#include "apps/io/files/load_failure.hpp"
 #include "tests/io/model_maker.hpp"
 
 #include "tests/support/catch.hpp"

@@ -136,7 +136,8 @@ TEST_CASE("limits: triangles that touch hundreds of tiles each are drawn without
     REQUIRE(draw(renderer, many, pixels, 2048, {.tile_size = 16, .memory_limit = 64'000'000}));
 }
 
-TEST_CASE("limits: copies of an opaque triangle are drawn once, and those that blend or have another material are not left out", "[raster]") {
+TEST_CASE("limits: copies of an opaque triangle are drawn once, and those that blend or have another material are not left out",
+          "[raster]") {
     constexpr int kWidth = 64, kHeight = 48, kCopies = 20'000;
     const auto scene_of = [](int copies, AlphaMode mode, bool own_corners, float second_red) {
         Scene scene;

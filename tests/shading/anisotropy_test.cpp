@@ -89,7 +89,8 @@ TEST_CASE("anisotropy: filtered channels are within their bound of float64, and 
                         }
                         for (int lane = 0; lane < kBlockSize; ++lane) {
                             const reference::Rgba want = reference::shade(frame, surface.material, 3u, block, lane);
-                            const double bound = filter_error(surface.plan.materials[0].textures[TextureSlot::base_color], 1, {TexelFacts::Measured::all, 2.5});
+                            const double bound = filter_error(surface.plan.materials[0].textures[TextureSlot::base_color], 1,
+                                                              {TexelFacts::Measured::all, 2.5});
                             const double error = std::fabs(static_cast<double>(block.green[lane]) - want.g);
                             closest = std::max(closest, error / bound);
                             if (error > bound)

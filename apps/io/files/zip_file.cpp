@@ -129,7 +129,8 @@ std::span<const std::byte> ZipFile::packed(const Entry& entry) const {
     if (entry.encrypted) fail_entry(entry, "it is encrypted");
     if (entry.method != kStored && entry.method != kDeflated)
         fail_entry(entry, fmt::format("it is packed by method {}, expected 0 (stored) or 8 (deflated)", entry.method));
-    if (!has(bytes_, entry.header_at, kHeaderBytes) || u32(bytes_, entry.header_at) != kHeaderMark) fail_entry(entry, "its header is missing");
+    if (!has(bytes_, entry.header_at, kHeaderBytes) || u32(bytes_, entry.header_at) != kHeaderMark)
+        fail_entry(entry, "its header is missing");
     const std::uint64_t first = entry.header_at + kHeaderBytes + u16(bytes_, entry.header_at + 26) + u16(bytes_, entry.header_at + 28);
     if (!has(bytes_, first, entry.packed_bytes)) fail_entry(entry, "it is cut off");
     return bytes_.subspan(first, entry.packed_bytes);
