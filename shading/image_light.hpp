@@ -21,7 +21,7 @@ struct LightRange {
 };
 [[nodiscard]] LightRange light_range(const sh::RadianceSh& radiance, const sh::WrapLobe& lobe);
 
-/// What is known of an image's light through a lobe.
+/// Bounds on an image's light through a lobe; empty until they are asked for.
 struct LobeLight {
     sh::WrapLobe lobe;
     std::optional<sh::OrderBounds> bounds;
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] LightRange range(const sh::WrapLobe& lobe) const;
     /// Made when it is first asked for.
     [[nodiscard]] std::shared_ptr<const ReflectionMap> reflections(const ForEachRow& for_each_row) const;
-    /// Of those reflections, which were made before; measured when they are first asked for.
+    /// Steps of reflections(), which were made before; measured when they are first asked for.
     [[nodiscard]] ReflectionSteps steps() const;
 
 private:

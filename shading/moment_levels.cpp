@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-// Loops over whole rows, each over lists of one number, which the compiler does for several texels at a time.
+// Loops over whole rows, each over lists of one number, so that the compiler vectorises them.
 
 namespace halflit {
 namespace {

@@ -93,11 +93,10 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     }
 }
 
-/// Spends an error budget. False if it is not kept: then the plan is as without one, and so is the time that the frame takes, but for its
-/// bound.
+/// Spends an error budget. False if it is not kept: then the plan is the exact one, with its bound.
 bool spend_budget(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
     using Measured = TexelFacts::Measured;
-    constexpr double kNear = 1.5, kReadingsToMeasureAll = 8.0;
+    constexpr double kReadingsToMeasureAll = 8.0;
     const double budget = inputs.options.max_error_codes;
     const CodeCosts costs(tone_growth(inputs.tone_curve));
     const ShadingPlan before = plan;
@@ -111,8 +110,6 @@ bool spend_budget(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& pla
         for (const Measured measured : {Measured::nothing, Measured::ranges, Measured::all}) {
             const double readings = measured == Measured::nothing ? 0.0 : measured == Measured::ranges ? 1.0 : kReadingsToMeasureAll;
             if (readings * texels > facts.worth_texels) break;
-            // Rounding is below a third of a code where nothing else shines.
-            if (measured == Measured::all && budget > 1.0 && plan.error.codes > kNear * budget) break;
             facts.texels.measured = measured;
             plan = with_bands;
             spend(budget);

@@ -142,18 +142,10 @@ struct FragmentCorners {
     const float *screen[3][shading::kBlockSize], *record[3][shading::kBlockSize];
     alignas(64) float side[shading::kBlockSize];
     bool same[shading::kBlockSize / kWidth];
-    bool known[shading::kBlockSize] = {};
 };
 
 HALFLIT_INLINE void find_corners(const InterpolateArgs& args, int at, FragmentCorners& out) {
     const std::uint32_t id = args.ids[at];
-    if (at > 0 && id == args.ids[at - 1] && out.known[at - 1]) {
-        for (int k = 0; k < 3; ++k) out.screen[k][at] = out.screen[k][at - 1], out.record[k][at] = out.record[k][at - 1];
-        out.side[at] = out.side[at - 1];
-        out.known[at] = true;
-        return;
-    }
-    out.known[at] = true;
     const TriangleRecord& record = record_of(args.triangles, id);
     const TriangleSource& source = source_of(args.triangles, id);
     const VertexRecords records = vertex_records_of(args, id, record);

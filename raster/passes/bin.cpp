@@ -243,8 +243,8 @@ private:
         }
     }
 
-    /// True if the triangle before it is equal, in corners and material, and hides it: of equal depths the first stays. Files hold copies
-    /// of surfaces, by thousands where somebody means ill.
+    /// True if the triangle before it is equal, in corners and material, and hides it: of equal depths the first stays. Crafted files
+    /// hold thousands of copies.
     [[nodiscard]] bool is_hidden_by_last(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Draw& draw) const {
         if (chunk_.records.empty()) return false;
         const TriangleRecord& last = chunk_.records.back();

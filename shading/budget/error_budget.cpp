@@ -50,6 +50,11 @@ bool any_drawn(const ShadingPlan& plan, const SceneFacts& facts, const Test& tes
     return false;
 }
 
+/// Half the exponent of a curve's cosine; Phong's cosine counts for a quarter of it.
+double half_exponent_of(const ShadingPlan& plan, double exponent) {
+    return exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
+}
+
 template <class Codes>
 PowTier cheapest_tier(double budget, const Codes& codes) {
     for (const PowTier tier : {PowTier::fast, PowTier::display})
@@ -123,7 +128,7 @@ void spend_on_specular(const CodeCosts& costs, const ShadingPlan& plan, Material
     // Highlights below this, before the reflectance, can be left out at a cost of `codes` codes.
     const auto threshold_of = [&](double codes) { return codes / (costs.at_black() * exposure * s.reflectance * light.count); };
     if (!roughness_varies(material)) {
-        const double half_exponent = s.exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
+        const double half_exponent = half_exponent_of(plan, s.exponent);
         const double share = threshold_of(kBudgetShares.specular_cut * budget) / (light.largest / exposure * s.normalization);
         for (const int terms : {SpecularCurve::kFewTerms, SpecularCurve::kMostTerms}) {
             const SpecularFit& fit = fits.specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0, terms);
@@ -189,8 +194,7 @@ double texels_of(const ShadingPlan& plan, const SceneFacts& facts) {
 const SpecularFit* exact_highlight(const ShadingPlan& plan, const MaterialPlan& material, PowerFits& fits) {
     constexpr std::uint32_t kNeeded = kStageLights | kStageSpecular;
     if (material.ggx || (material.stages & kNeeded) != kNeeded || roughness_varies(material)) return nullptr;
-    const double exponent = specular_exponent(static_cast<double>(material.roughness));
-    const double half_exponent = exponent * (plan.specular == SpecularModel::phong ? 0.125 : 0.5);
+    const double half_exponent = half_exponent_of(plan, specular_exponent(static_cast<double>(material.roughness)));
     if (!(half_exponent > 1.0)) return nullptr;
     const SpecularFit& fit = fits.specular(half_exponent, power_of(kExactCut, 1.0 / half_exponent), SpecularCurve::kMostTerms);
     return fit.codes(kExactPeak, 1) <= kExactCodes ? &fit : nullptr;

@@ -18,7 +18,7 @@ struct SceneFacts {
     std::vector<bool> drawn;                     ///< true for each planned material of which an object is made
     double vertex_color = 1.0;                   ///< the largest channel of all vertex colours
     TexelFacts texels;
-    double worth_texels = 1e300;  ///< as many texels may be read to measure them: more cost more than a budget can save in the picture
+    double worth_texels = 1e300;  ///< the largest number of texels that are worth reading: more cost more than a budget can save
 };
 
 /// True if glass that blurs or bends is drawn: what lies behind is another picture, with errors of its own, which have no bound.

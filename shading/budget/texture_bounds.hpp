@@ -5,7 +5,7 @@
 
 namespace halflit::shading {
 
-/// What is known of texels.
+/// Knowledge about texels that a bound may use.
 struct TexelFacts {
     enum class Measured : std::uint8_t {
         nothing,  ///< neighbours may be 0 and 1, and each level rounded by half a unit of 16 bits

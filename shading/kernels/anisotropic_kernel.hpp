@@ -38,7 +38,7 @@ HALFLIT_INLINE Ellipse ellipse_of(const shading::TexturePlan& texture, const Tex
     return out;
 }
 
-/// Taps of the probes along footprints. Probes that a lane has not have the weight 0 there.
+/// Taps of the probes along footprints. A lane's missing probes have weight 0.
 struct ProbeTaps {
     int pairs;                                   ///< probes at either side of the middle one, in the lane that has most
     bool plain;                                  ///< at all probes the right corners follow the left ones in memory, in all lanes

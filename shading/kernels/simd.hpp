@@ -151,14 +151,14 @@ HALFLIT_INLINE I vmin(I a, I b) { return _mm512_min_epi32(a, b); }
 HALFLIT_INLINE I vmax(I a, I b) { return _mm512_max_epi32(a, b); }
 HALFLIT_INLINE F gather(const float* base, I index) { return _mm512_i32gather_ps(index, base, 4); }
 HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return _mm512_i32gather_epi32(index, base, 4); }
-HALFLIT_INLINE F look_up8(const float* table, I index) {
+HALFLIT_INLINE F look_up8(const float (&table)[8], I index) {
     return _mm512_permutexvar_ps(index, _mm512_castps256_ps512(_mm256_loadu_ps(table)));
 }
-HALFLIT_INLINE I look_up8(const std::int32_t* table, I index) {
+HALFLIT_INLINE I look_up8(const std::int32_t (&table)[8], I index) {
     const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(table));
     return _mm512_permutexvar_epi32(index, _mm512_castsi256_si512(values));
 }
-HALFLIT_INLINE F look_up16(const float* table, I index) { return _mm512_permutexvar_ps(index, _mm512_loadu_ps(table)); }
+HALFLIT_INLINE F look_up16(const float (&table)[16], I index) { return _mm512_permutexvar_ps(index, _mm512_loadu_ps(table)); }
 HALFLIT_INLINE M less(I a, I b) { return M(_mm512_cmplt_epi32_mask(a, b)); }
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm512_cmpeq_epi32_mask(a, b)); }
 #elif defined(__AVX2__)
@@ -172,13 +172,14 @@ HALFLIT_INLINE I vmin(I a, I b) { return _mm256_min_epi32(a, b); }
 HALFLIT_INLINE I vmax(I a, I b) { return _mm256_max_epi32(a, b); }
 HALFLIT_INLINE F gather(const float* base, I index) { return _mm256_i32gather_ps(base, index, 4); }
 HALFLIT_INLINE I gather(const std::int32_t* base, I index) { return _mm256_i32gather_epi32(base, index, 4); }
-HALFLIT_INLINE F look_up8(const float* table, I index) { return _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index); }
-HALFLIT_INLINE I look_up8(const std::int32_t* table, I index) {
+HALFLIT_INLINE F look_up8(const float (&table)[8], I index) { return _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index); }
+HALFLIT_INLINE I look_up8(const std::int32_t (&table)[8], I index) {
     return _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(table)), index);
 }
-HALFLIT_INLINE F look_up16(const float* table, I index) {
+HALFLIT_INLINE F look_up16(const float (&table)[16], I index) {
     const __m256 upper = _mm256_castsi256_ps(_mm256_slli_epi32(index, 28));  // bit 3 as the sign
-    return _mm256_blendv_ps(look_up8(table, index), look_up8(table + 8, index), upper);
+    const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), index);
+    return _mm256_blendv_ps(low, _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), index), upper);
 }
 HALFLIT_INLINE M less(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpgt_epi32(b, a))); }
 HALFLIT_INLINE M equal(I a, I b) { return M(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b))); }
@@ -260,11 +261,11 @@ HALFLIT_INLINE F iota_f() { return to_float(iota_i()); }
 
 #endif  // HALFLIT_ARCH
 
-/// table[index], of eight or sixteen values.
+/// table[index], index from 0 to 7 or 15.
 #if !defined(__AVX2__) || !defined(HALFLIT_ARCH)
-HALFLIT_INLINE F look_up8(const float* table, I index) { return gather(table, index); }
-HALFLIT_INLINE I look_up8(const std::int32_t* table, I index) { return gather(table, index); }
-HALFLIT_INLINE F look_up16(const float* table, I index) { return gather(table, index); }
+HALFLIT_INLINE F look_up8(const float (&table)[8], I index) { return gather(table, index); }
+HALFLIT_INLINE I look_up8(const std::int32_t (&table)[8], I index) { return gather(table, index); }
+HALFLIT_INLINE F look_up16(const float (&table)[16], I index) { return gather(table, index); }
 #endif
 
 HALFLIT_INLINE M is_nan(F x) { return !(x == x); }

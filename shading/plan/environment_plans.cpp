@@ -117,22 +117,18 @@ EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapL
         plan.bands = 1;
         while (plan.bands < sh::kMaxBands && codes[static_cast<std::size_t>(plan.bands - 1)] > order.codes) ++plan.bands;
         plan.bound = sh::largest(bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
-        plan.within = codes[static_cast<std::size_t>(plan.bands - 1)] <= order.codes;
     } else if (order.fixed > 0) {
         plan.bands = std::min(order.fixed, sh::kMaxBands);
         plan.bound = sh::largest(bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
-        plan.within = plan.bound <= order.tolerance * (1.0 / order.exposure);
     } else {
         const sh::OrderChoice choice = sh::pick_order(bounds, order.tolerance, 1.0 / order.exposure);
         plan.bands = choice.order;
         plan.bound = choice.bound;
-        plan.within = choice.within;
     }
     plan.bound_codes = codes[static_cast<std::size_t>(plan.bands - 1)];
     plan.sun_bound = sun_bound(environment, lobe, order.split_shadows);
     plan.bound += plan.sun_bound;
-    plan.within = plan.within && (order.codes > 0 ? order.costs.absolute(plan.sun_bound * order.exposure) <= order.codes
-                                                  : plan.bound * order.exposure <= order.tolerance);
+    plan.within = plan.bound * order.exposure <= order.tolerance;
     const sh::PreconvolvedSh product = sh::convolve(environment.radiance, sh::zonal_bands(lobe), plan.bands);
     // Y_0 is 1 / (2 sqrt(pi)), so the integral of the radiance over pi is its first coefficient times 2 / sqrt(pi).
     const double middle = lobe.wrap > 0.0 ? lobe.scale * power_of(lobe.wrap / (1.0 + lobe.wrap), lobe.power) : 0.0;

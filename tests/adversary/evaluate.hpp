@@ -1,4 +1,4 @@
-// What a trial's picture makes of a promise: of a bound on its error, or of a share of its pixels.
+// Judges a trial's picture by a promise: a bound on its error, or a share of its pixels.
 #pragma once
 
 #include "halflit/renderer.hpp"

@@ -87,3 +87,24 @@ TEST_CASE("error budget: no random scene exceeds the promised error, nor the req
 }
 
 TEST_CASE("error budget: none of many random scenes exceeds the promised error", "[raster][budget][deep]") { check_budgets(43, 168); }
+
+TEST_CASE("error budget: a larger one is kept where a smaller one is, and one that is not kept draws the exact picture",
+          "[raster][budget]") {
+    int kept = 0, refused = 0;
+    for (std::uint32_t seed = 300; seed < 330; ++seed) {
+        const Trial trial = random_trial(seed);
+        const Picture exact = draw(trial, Accuracy::exact, 0);
+        bool before = false;
+        for (const double budget : {0.02, 0.3, 0.99, 1.01, 1.5, 2.5, 8.0, 40.0}) {
+            const Picture picture = draw(trial, Accuracy::exact, budget);
+            INFO("seed " << seed << ", budget " << budget << ", bound " << picture.report.error.codes);
+            const bool within = picture.report.error.within;
+            CHECK((within || !before));
+            before = within;
+            ++(within ? kept : refused);
+            if (!within) CHECK(picture.linear == exact.linear);
+        }
+    }
+    CHECK(kept > 60);
+    CHECK(refused > 20);
+}

@@ -114,9 +114,10 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     if (const ErrorBound& error = rendered->error; error.budget > 0.0 && !error.within)
         job->warnings.push_back(
             error.codes < 255.0
-                ? fmt::format("--max-error {}: the least bound that can be promised here is {:.2f} codes; the report has its parts",
-                              error.budget, error.codes)
-                : fmt::format("--max-error {}: nothing can be promised here; drawn as without it", error.budget));
+                ? fmt::format(
+                      "--max-error {:.6g}: not kept; the exact picture is drawn, whose bound is {:.2f} codes; the report has its parts",
+                      error.budget, error.codes)
+                : fmt::format("--max-error {:.6g}: not kept; the exact picture is drawn, of which no bound is known", error.budget));
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) {
             const bool says_which = !one_of_many || warning.starts_with(job->source.name);

@@ -231,6 +231,7 @@ int replace_file(const std::string& target, std::span<const std::uint8_t> bytes,
     const int fd = pending.create(temporary, mode);
     if (fd < 0) return errno;
     int error = fill(fd, bytes, mode, exists);
+    if (error == 0 && !exists) error = flush(fd);  // another process may make the target before it is renamed
     if (::close(fd) != 0 && error == 0) error = errno;
     if (error != 0) {
         pending.remove(temporary);

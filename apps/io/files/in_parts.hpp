@@ -14,10 +14,14 @@
 
 namespace halflit::io::detail {
 
+/// Threads that LoadOptions::threads allows.
+inline std::size_t allowed_threads(int threads) {
+    return threads > 0 ? static_cast<std::size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());
+}
+
 /// Parts that loops of `count` steps are done in, on as many threads: threads, 0 for one per core; each part has at least `least` steps.
 inline std::size_t parts_of(std::size_t count, std::size_t least, int threads) {
-    const std::size_t most = threads > 0 ? static_cast<std::size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());
-    return std::max<std::size_t>(1, std::min(most, count / least));
+    return std::max<std::size_t>(1, std::min(allowed_threads(threads), count / least));
 }
 
 /// Calls body(part, begin, end) for the parts of [0, count), in order of their steps but side by side, within this thread's time limit.

@@ -2,6 +2,7 @@
 
 #include "apps/io/files/load_failure.hpp"
 #include "apps/io/files/text.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -11,11 +12,13 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <optional>
 
 namespace halflit::io::detail {
 namespace {
 
+constexpr std::uint64_t kMostEntries = 1'000'000;
 constexpr unsigned kStored = 0, kDeflated = 8;
 constexpr std::size_t kEndBytes = 22, kEntryBytes = 46, kHeaderBytes = 30, kLocatorBytes = 20, kEnd64Bytes = 56, kMostComment = 65535;
 constexpr std::uint32_t kEndMark = 0x06054b50, kEntryMark = 0x02014b50, kHeaderMark = 0x04034b50, kLocatorMark = 0x07064b50,
@@ -60,8 +63,11 @@ Directory find_directory(std::span<const std::byte> bytes) {
     Directory out{u32(bytes, *end + 16), u32(bytes, *end + 12), u16(bytes, *end + 10)};
     std::uint64_t behind = *end;
     if (*end >= kLocatorBytes && u32(bytes, *end - kLocatorBytes) == kLocatorMark) {
-        const std::uint64_t at = u64(bytes, *end - kLocatorBytes + 8);
-        if (!has(bytes, at, kEnd64Bytes) || u32(bytes, at) != kEnd64Mark) fail_whole("its directory of 64 bits is missing");
+        const auto is_end = [&](std::uint64_t at) { return has(bytes, at, kEnd64Bytes) && u32(bytes, at) == kEnd64Mark; };
+        std::uint64_t at = u64(bytes, *end - kLocatorBytes + 8);
+        // Behind other data its place is later than the locator says: mostly right before the locator.
+        if (!is_end(at) && *end >= kLocatorBytes + kEnd64Bytes) at = *end - kLocatorBytes - kEnd64Bytes;
+        if (!is_end(at)) fail_whole("its directory of 64 bits is missing");
         out = {u64(bytes, at + 48), u64(bytes, at + 40), u64(bytes, at + 32)};
         behind = at;
     }
@@ -93,18 +99,26 @@ void read_large(std::span<const std::byte> extra, ZipFile::Entry& entry) {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+bool is_before(std::string_view a, std::string_view b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) < lower(y); });
+}
+
 }  // namespace
 
 ZipFile::ZipFile(std::span<const std::byte> bytes) : bytes_(bytes) {
     const Directory directory = find_directory(bytes);
     const std::span<const std::byte> list = bytes.subspan(directory.first, directory.size);
+    if (directory.entries > kMostEntries)
+        refuse("", fmt::format("the ZIP file of a 3MF model has {} entries, the limit is {}", directory.entries, kMostEntries),
+               ErrorCode::limit);
+    TimeCheck check;
     for (std::size_t at = 0; entries_.size() < directory.entries;) {
+        check();
         if (!has(list, at, kEntryBytes) || u32(list, at) != kEntryMark) fail_whole("its directory is damaged");
         const std::size_t name = u16(list, at + 28), extra = u16(list, at + 30), comment = u16(list, at + 32);
         if (!has(list, at + kEntryBytes, name + extra + comment)) fail_whole("its directory is damaged");
         Entry& entry = entries_.emplace_back();
-        entry.name.resize(name);
-        std::memcpy(entry.name.data(), list.data() + at + kEntryBytes, name);
+        entry.name = {reinterpret_cast<const char*>(list.data()) + at + kEntryBytes, name};
         entry.encrypted = (u16(list, at + 8) & 1u) != 0;
         entry.method = u16(list, at + 10);
         entry.crc = u32(list, at + 16);
@@ -114,15 +128,18 @@ ZipFile::ZipFile(std::span<const std::byte> bytes) : bytes_(bytes) {
         entry.header_at += directory.begin;
         at += kEntryBytes + name + extra + comment;
     }
+    by_name_.resize(entries_.size());
+    std::iota(by_name_.begin(), by_name_.end(), 0u);
+    std::sort(by_name_.begin(), by_name_.end(), timed_less([&](std::uint32_t a, std::uint32_t b) {
+                  return is_before(entries_[a].name, entries_[b].name) || (!is_before(entries_[b].name, entries_[a].name) && a < b);
+              }));
 }
 
 const ZipFile::Entry* ZipFile::find(std::string_view name) const {
-    const auto same = [&](const Entry& entry) {
-        return std::equal(entry.name.begin(), entry.name.end(), name.begin(), name.end(),
-                          [](char a, char b) { return lower(a) == lower(b); });
-    };
-    const auto found = std::find_if(entries_.begin(), entries_.end(), same);
-    return found == entries_.end() ? nullptr : &*found;
+    const auto found = std::lower_bound(by_name_.begin(), by_name_.end(), name, [&](std::uint32_t entry, std::string_view wanted) {
+        return is_before(entries_[entry].name, wanted);
+    });
+    return found == by_name_.end() || is_before(name, entries_[*found].name) ? nullptr : &entries_[*found];
 }
 
 std::span<const std::byte> ZipFile::packed(const Entry& entry) const {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace halflit::io::detail {
 class ZipFile {
 public:
     struct Entry {
-        std::string name;
+        std::string_view name;
         std::uint64_t bytes = 0;  ///< unpacked
         std::uint64_t packed_bytes = 0;
         std::uint64_t header_at = 0;  ///< in the ZIP file
@@ -22,7 +21,8 @@ public:
         bool encrypted = false;
     };
 
-    /// Throws LoadFailure if there is no directory, or a part of it is missing. `bytes` must outlive the object.
+    /// Throws LoadFailure if there is no directory, a part of it is missing, or it has more than a million entries. `bytes` must outlive
+    /// the object.
     explicit ZipFile(std::span<const std::byte> bytes);
 
     /// The first entry of that name, the case of ASCII letters aside; null: there is none.
@@ -37,6 +37,7 @@ private:
 
     std::span<const std::byte> bytes_;
     std::vector<Entry> entries_;
+    std::vector<std::uint32_t> by_name_;  ///< indices of entries in the order of their names, the case of ASCII letters aside
 };
 
 }  // namespace halflit::io::detail

@@ -146,10 +146,10 @@ void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double creas
     });
     // One list of all, in the order of the places.
     std::vector<std::uint32_t> before{0};
-    for (const std::vector<Vec3f>& normals : made) {
-        before.push_back(before.back() + static_cast<std::uint32_t>(normals.size()));
-        soup.normals.insert(soup.normals.end(), normals.begin(), normals.end());
-    }
+    for (const std::vector<Vec3f>& normals : made) before.push_back(before.back() + static_cast<std::uint32_t>(normals.size()));
+    if (first == 0) soup.normals = std::move(made[0]);
+    soup.normals.reserve(first + before.back());
+    for (std::vector<Vec3f>& normals : made) soup.normals.insert(soup.normals.end(), normals.begin(), normals.end()), normals = {};
     if (parts == 1) return;
     in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
         for (std::size_t place = begin; place < end; ++place)

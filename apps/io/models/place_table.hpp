@@ -20,7 +20,7 @@ class PlaceTable {
 public:
     static constexpr std::uint32_t kEmpty = 0xFFFFFFFFu;
 
-    /// Takes the memory for so many places.
+    /// Reserves memory for `places` places.
     void reserve(std::size_t places, const std::vector<V>& list) {
         const std::size_t size = std::bit_ceil(std::max<std::size_t>(512, places + 1)) * 2;
         if (size > slots_.size()) spread(size, list);

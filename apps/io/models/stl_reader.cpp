@@ -165,9 +165,9 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
 
     Soup soup;
     PlaceTable<Vec3d> places;
-    const auto of_closed_body = static_cast<std::size_t>(count / 2 + 2);
-    soup.positions.reserve(of_closed_body);
-    places.reserve(of_closed_body, soup.positions);
+    const auto closed_mesh_places = static_cast<std::size_t>(count / 2 + 2);
+    soup.positions.reserve(closed_mesh_places);
+    places.reserve(closed_mesh_places, soup.positions);
     soup.distinct = true;
     soup.position_of.reserve(static_cast<std::size_t>(3 * count));
     std::vector<std::uint32_t> index_of;  // of a colour by its number

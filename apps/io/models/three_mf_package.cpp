@@ -21,13 +21,13 @@ ThreeMfPackage::ThreeMfPackage(std::span<const std::byte> bytes, Document& docum
                 std::min<std::uint64_t>(document.options.limits.max_total_bytes, kFreeBytes + kBytesPerByte * bytes.size())) {}
 
 std::optional<std::vector<std::byte>> ThreeMfPackage::read(const std::string& name) {
+    check_time();
     const ZipFile::Entry* const entry = zip_.find(name.starts_with('/') ? std::string_view(name).substr(1) : name);
     if (entry == nullptr) return std::nullopt;
     if (const std::uint64_t most = document_.options.limits.max_file_bytes; entry->bytes > most)
         refuse(printable(entry->name, 120), fmt::format("has more than {} bytes, which is max_file_bytes", most), ErrorCode::limit);
-    unpacked_.take(entry->bytes);
     zip_.check_size(*entry);
-    check_time();
+    unpacked_.take(entry->bytes);
     std::vector<std::byte> bytes(entry->bytes);
     zip_.unpack(*entry, bytes);
     check_time();

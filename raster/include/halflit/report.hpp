@@ -78,7 +78,7 @@ struct RenderReport {
     int threads = 1;                          ///< threads that the frame could use; 0: a host's loop
     Isa isa = Isa::scalar;                    ///< instruction set of the kernels
     std::uint64_t triangles_submitted = 0;    ///< triangles of the scene, over all instances
-    std::uint64_t triangles_drawn = 0;        ///< set up for tiles; pieces of clipped triangles count singly
+    std::uint64_t triangles_drawn = 0;        ///< set up for tiles, without copies; pieces of clipped triangles count singly
     std::uint64_t triangles_not_finite = 0;   ///< dropped for a NaN or infinite vertex
     std::uint64_t pixels_visible = 0;         ///< pixels of the region of which an opaque or masked surface covers a sample
     std::uint64_t fragments_shaded = 0;       ///< pairs of a pixel and a triangle whose colour was computed

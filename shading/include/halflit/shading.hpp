@@ -28,7 +28,7 @@ struct ErrorGrowth {
 struct ErrorBound {
     double budget = 0;        ///< codes asked for; 0: no budget, and nothing below is known
     double codes = 0;         ///< the bound
-    bool within = true;       ///< codes <= budget; if not, rounding and bands alone exceed it for some material, which is computed exactly
+    bool within = true;       ///< codes <= budget; if not, rounding and bands alone exceed it for some material, and the frame is exact
     double rounding = 0;      ///< float32 itself, and texture filters
     double lobes = 0;         ///< shorter polynomials for t^n, or curves
     double specular = 0;      ///< shorter polynomials for cos^s, or curves

@@ -83,7 +83,7 @@ typedef struct halflit_load_options {
     int32_t recentre;
     float crease_deg;  ///< files without normals but glTF: smooth across edges up to this angle (30)
     int32_t strict;    ///< refuse a file of which something cannot be drawn: textures, animations, faces with bad indices (0)
-    int32_t threads;   ///< threads that decode textures, the calling one included; 0: one for each core (0)
+    int32_t threads;   ///< threads that decode textures and make normals, the calling one included; 0: one for each core (0)
     const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
     size_t allow_external_count;        ///< number of these folders
     double time_limit_s;                ///< wall clock, checked between the parts of the file; 0: no limit (0)
@@ -707,7 +707,7 @@ typedef struct halflit_report {
     double error_budget;                   ///< codes; 0: no budget, and the error is not known
     double error_codes;                    ///< bound on the error with a budget, in 8-bit codes
     uint64_t triangles_submitted;          ///< triangles of the scene, over all instances
-    uint64_t triangles_drawn;              ///< set up for tiles; pieces of clipped triangles count singly
+    uint64_t triangles_drawn;              ///< set up for tiles, without copies; pieces of clipped triangles count singly
     uint64_t triangles_not_finite;         ///< left out for a vertex that is NaN or infinite
     uint64_t pixels_visible;               ///< pixels of which an opaque or masked surface covers a sample
     uint64_t fragments_shaded;             ///< pairs of a pixel and a triangle whose colour was computed

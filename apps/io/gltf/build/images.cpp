@@ -1,5 +1,6 @@
 #include "apps/io/gltf/build/images.hpp"
 
+#include "apps/io/files/in_parts.hpp"
 #include "apps/io/files/text.hpp"
 #include "apps/io/files/uri.hpp"
 #include "apps/io/pictures/image_reader.hpp"
@@ -192,9 +193,7 @@ std::size_t ImageStore::other_threads() const {
     // All pictures that are decoded at a time take no more than the textures may.
     constexpr std::size_t kBytesAPixel = 8;
     const std::size_t fitting = std::max<std::size_t>(1, document_.options.limits.max_texture_bytes / kBytesAPixel / largest);
-    const int wanted = document_.options.threads;
-    const std::size_t most = wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1u, std::thread::hardware_concurrency());
-    return std::min({most - 1, fitting - 1, jobs_.size(), pixels / kPixelsAThread});
+    return std::min({allowed_threads(document_.options.threads) - 1, fitting - 1, jobs_.size(), pixels / kPixelsAThread});
 }
 
 void ImageStore::run_jobs() {

@@ -68,8 +68,8 @@ struct LoadOptions {
     /// One that cannot be opened is an error (usage).
     std::vector<std::string> allow_external;
     LoadLimits limits;  ///< on memory and time
-    /// Threads that decode textures, this one included; 0: one for each processor. The result is the same. While it decodes, a thread holds
-    /// up to 64 MB, or a whole picture if it is WebP, progressive JPEG or interlaced PNG, beside the texture.
+    /// Threads that decode textures and make normals, this one included; 0: one for each processor. The result is the same. While it
+    /// decodes, a thread holds up to 64 MB, or a whole picture if it is WebP, progressive JPEG or interlaced PNG, beside the texture.
     int threads = 0;
     /// Moves a scene to the origin if it lies farther from it than 1024 times its radius, and scales it by a power of two if its radius is
     /// below 2^-10 or above 2^30, so that float32 keeps its shape and the least distance of a point light (Light::source_radius) is small
