@@ -7,6 +7,9 @@
 
 #include "tests/support/catch.hpp"
 
+#include <array>
+#include <map>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -238,36 +241,70 @@ TEST_CASE("models: limits hold for each format", "[io]") {
     }
 }
 
-TEST_CASE("formats: the normals of a large model are the same from one thread and from several", "[io][model]") {
-    // Waves, flat steps and sharp ridges, with more places than two threads need.
-    constexpr unsigned kSide = 380;
+namespace {
+
+/// Waves, flat steps and sharp ridges over a square of side x side cells.
+Polyhedron waves_of(unsigned side) {
     Polyhedron waves;
-    for (unsigned y = 0; y <= kSide; ++y)
-        for (unsigned x = 0; x <= kSide; ++x) {
+    for (unsigned y = 0; y <= side; ++y)
+        for (unsigned x = 0; x <= side; ++x) {
             const float height = (x / 16 % 2 == 0 ? 1.0f : 0.0f) + 0.01f * static_cast<float>(x * y % 37);
             waves.points.push_back({static_cast<float>(x), static_cast<float>(y), height});
         }
-    for (unsigned y = 0; y < kSide; ++y)
-        for (unsigned x = 0; x < kSide; ++x) {
-            const unsigned at = y * (kSide + 1) + x, below = at + kSide + 1;
+    for (unsigned y = 0; y < side; ++y)
+        for (unsigned x = 0; x < side; ++x) {
+            const unsigned at = y * (side + 1) + x, below = at + side + 1;
             waves.triangles.push_back({at, at + 1, below});
             waves.triangles.push_back({at + 1, below + 1, below});
         }
-    const Bytes file = stl_binary_of(waves, "waves");
-    const auto load = [&](int threads) {
-        LoadOptions options = strictly();
-        options.threads = threads;
-        auto loaded = load_model_bytes(file, "waves.stl", "", options);
-        REQUIRE(loaded);
-        REQUIRE(loaded->scene.meshes.size() == 1);
-        return std::move(loaded->scene.meshes[0]);
-    };
-    const Mesh one = load(1);
+    return waves;
+}
+
+Mesh mesh_of(const Polyhedron& body, int threads = 1) {
+    LoadOptions options = strictly();
+    options.threads = threads;
+    auto loaded = load_model_bytes(stl_binary_of(body, "body"), "body.stl", "", options);
+    REQUIRE(loaded);
+    REQUIRE(loaded->scene.meshes.size() == 1);
+    return std::move(loaded->scene.meshes[0]);
+}
+
+}  // namespace
+
+TEST_CASE("formats: the normals of a large model are the same from one thread and from several", "[io][model]") {
+    const Polyhedron waves = waves_of(380);  // more places than two threads need
+    const Mesh one = mesh_of(waves);
     CHECK(one.positions.size() > waves.points.size());  // the ridges are sharp
     for (const int threads : {2, 3}) {
-        const Mesh several = load(threads);
+        const Mesh several = mesh_of(waves, threads);
         CHECK(several.positions == one.positions);
         CHECK(several.normals == one.normals);
         CHECK(several.indices == one.indices);
+    }
+}
+
+TEST_CASE("formats: copies of triangles, and their backs, leave a surface as smooth as it is", "[io][model]") {
+    const Polyhedron waves = waves_of(40);
+    const Mesh single = mesh_of(waves);
+    for (const int copies : {2, 3, 5}) {
+        Polyhedron copied = waves;
+        for (int i = 1; i < copies; ++i)
+            for (const auto& [a, b, c] : waves.triangles) copied.triangles.push_back({b, c, a});
+        const Mesh mesh = mesh_of(copied);
+        CHECK(mesh.positions == single.positions);
+        CHECK(mesh.normals == single.normals);
+    }
+    Polyhedron both = waves;
+    for (const auto& [a, b, c] : waves.triangles) both.triangles.push_back({a, c, b});
+    both.triangles.insert(both.triangles.end(), waves.triangles.begin(), waves.triangles.end());
+    const Mesh mesh = mesh_of(both);
+    REQUIRE(mesh.positions.size() == 2 * single.positions.size());
+    std::map<std::array<float, 6>, int> sides;
+    const auto key = [](Vec3f p, Vec3f n) { return std::array{p.x, p.y, p.z, n.x + 0.0f, n.y + 0.0f, n.z + 0.0f}; };
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) ++sides[key(mesh.positions[i], mesh.normals[i])];
+    for (std::size_t i = 0; i < single.positions.size(); ++i) {
+        const Vec3f n = single.normals[i];
+        CHECK(sides[key(single.positions[i], n)] == 1);
+        CHECK(sides[key(single.positions[i], {-n.x, -n.y, -n.z})] == 1);
     }
 }

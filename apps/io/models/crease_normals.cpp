@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 namespace halflit::io::detail {
@@ -45,6 +46,7 @@ public:
         if (std::all_of(corners.begin(), corners.end(), has_normal)) return;
         wedges_.clear();
         edges_.clear();
+        copies_.clear();
         for (const std::uint32_t corner : corners) {
             check_();
             const std::uint32_t next = following(corner), last = following(next), number = static_cast<std::uint32_t>(wedges_.size());
@@ -55,6 +57,7 @@ public:
         }
         join_smooth_edges(corners);
         for (std::uint32_t i = 0; i < wedges_.size(); ++i) {
+            if (!copies_.empty() && copies_[i].of != kNone) continue;
             Vec3d& of_set = wedges_[root(i)].sum;
             of_set = of_set + wedges_[i].normal * wedges_[i].angle;
         }
@@ -81,6 +84,12 @@ private:
         std::uint32_t parent;  ///< a wedge of the same set, nearer to its root; a root is its own
         std::uint32_t number;  ///< of a root: of its set's normal, when it is known
     };
+    /// What a wedge has in common with others at the place.
+    struct Copy {
+        std::uint32_t ends[2];       ///< places of the triangle's next corner and of the one after it
+        std::uint32_t of = kNone;    ///< the first wedge with the same ends; kNone: it is the first
+        std::uint32_t back = kNone;  ///< of a first one, the first with the same ends the other way round; kNone: there is none
+    };
     struct Edge {
         std::uint32_t to;     ///< place at its other end
         std::uint32_t wedge;  ///< the triangle's
@@ -100,21 +109,81 @@ private:
         while (wedges_[wedge].parent != wedge) wedge = wedges_[wedge].parent = wedges_[wedges_[wedge].parent].parent;
         return wedge;
     }
+    void join(std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t x = root(a), y = root(b);
+        wedges_[std::max(x, y)].parent = std::min(x, y);
+    }
+    /// Finds triangles that are there more than once, or from both sides: an edge of theirs is as smooth as one of a single surface.
+    void find_copies(std::span<const std::uint32_t> corners) {
+        order_.clear();
+        for (const std::uint32_t corner : corners) {
+            const std::uint32_t next = following(corner);
+            order_.push_back(static_cast<std::uint32_t>(copies_.size()));
+            copies_.push_back({{soup_.position_of[next], soup_.position_of[following(next)]}});
+        }
+        const auto ends = [this](std::uint32_t wedge) {
+            const auto& [next, last] = copies_[wedge].ends;
+            return std::pair(std::min(next, last), std::max(next, last));
+        };
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            check_();
+            return std::pair(ends(a), a) < std::pair(ends(b), b);
+        });
+        std::uint32_t first[2] = {kNone, kNone};  // of the same two ends, in either order
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            Copy& wedge = copies_[order_[i]];
+            if (i > 0 && ends(order_[i]) != ends(order_[i - 1])) first[0] = first[1] = kNone;
+            const bool turned = wedge.ends[0] > wedge.ends[1];
+            std::uint32_t &same = first[turned ? 1 : 0], other = first[turned ? 0 : 1];
+            if (same != kNone) {
+                wedge.of = same;
+                join(order_[i], same);
+                continue;
+            }
+            same = order_[i];
+            if (other != kNone) wedge.back = other, copies_[other].back = same;
+        }
+    }
     void join_smooth_edges(std::span<const std::uint32_t> corners) {
         std::sort(edges_.begin(), edges_.end(), [this](const Edge& a, const Edge& b) {
             check_();
             return std::tie(a.to, a.wedge) < std::tie(b.to, b.wedge);
         });
-        for (std::size_t i = 0; i < edges_.size();) {
+        const auto join_if_smooth = [&](const Edge& a, const Edge& b) {
+            if (a.leaves != b.leaves && is_smooth(a.wedge, corners[a.wedge] / 3, b.wedge, corners[b.wedge] / 3)) join(a.wedge, b.wedge);
+        };
+        const auto end_of = [&](std::size_t i) {
             std::size_t end = i + 1;
             while (end < edges_.size() && edges_[end].to == edges_[i].to) ++end;
-            const std::uint32_t a = edges_[i].wedge, b = edges_[end - 1].wedge;
-            if (end - i == 2 && edges_[i].leaves != edges_[i + 1].leaves && is_smooth(a, corners[a] / 3, b, corners[b] / 3)) {
-                const std::uint32_t x = root(a), y = root(b);
-                wedges_[std::max(x, y)].parent = std::min(x, y);
-            }
-            i = end;
+            return end;
+        };
+        bool has_copies = false;
+        for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) {
+            const std::size_t count = end_of(i) - i;
+            has_copies |= count > 2 || (count == 2 && edges_[i].leaves == edges_[i + 1].leaves);
+            if (count == 2) join_if_smooth(edges_[i], edges_[i + 1]);
         }
+        if (!has_copies) return;
+        find_copies(corners);
+        for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) join_without_copies(i, end_of(i), join_if_smooth);
+    }
+    /// Joins the triangles of one edge, edges_[begin] to edges_[end - 1], if without copies there are two, or two with their backs.
+    template <class Join>
+    void join_without_copies(std::size_t begin, std::size_t end, const Join& join_if_smooth) const {
+        Edge single[5];
+        std::size_t count = 0;
+        for (std::size_t e = begin; e < end && count < 5; ++e)
+            if (copies_[edges_[e].wedge].of == kNone) single[count++] = edges_[e];
+        if (count == 2) join_if_smooth(single[0], single[1]);
+        if (count != 4) return;
+        const auto is_back = [&](std::size_t a, std::size_t b) { return copies_[single[a].wedge].back == single[b].wedge; };
+        std::size_t back = 1;  // of the first one
+        while (back < 4 && !is_back(0, back)) ++back;
+        if (back == 4) return;
+        const std::size_t other = back == 1 ? 2 : 1, last = 6 - back - other;
+        if (!is_back(other, last)) return;
+        join_if_smooth(single[0], single[single[0].leaves != single[other].leaves ? other : last]);
+        join_if_smooth(single[back], single[single[back].leaves != single[other].leaves ? other : last]);
     }
     [[nodiscard]] bool is_smooth(std::uint32_t a, std::size_t triangle_a, std::uint32_t b, std::size_t triangle_b) const {
         const std::uint32_t group = smoothing(triangle_a);
@@ -130,6 +199,8 @@ private:
     double least_cosine_;
     std::vector<Wedge> wedges_;
     std::vector<Edge> edges_;
+    std::vector<Copy> copies_;  ///< of the place's wedges; empty where no edge has copies
+    std::vector<std::uint32_t> order_;
     TimeCheck check_;
 };
 

@@ -7,8 +7,9 @@ namespace halflit::io::detail {
 
 /// Gives a normal to each corner of `soup` that has none. position_of: equal positions have equal numbers; `corners`: those at each of
 /// them. Two triangles are smooth across an edge if they are its only ones, turn the same way, and their normals differ by at most
-/// `crease_deg`, or their smoothing groups say so. Around a place, triangles that hang together by such edges share a normal: the mean of
-/// theirs, weighted by their angles there.
+/// `crease_deg`, or their smoothing groups say so. Copies of a triangle count once, and where each of two triangles has a back, both
+/// sides are smooth. Around a place, triangles that hang together by such edges share a normal: the mean of theirs, weighted by their
+/// angles there.
 /// threads: as LoadOptions::threads; the result does not depend on it.
 void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg, int threads);
 
