@@ -42,11 +42,16 @@ double environment_codes(const CodeCosts& costs, const ShadingPlan& plan, const 
     return codes;
 }
 
-/// True if `test` is true for some material that is drawn and has light.
+/// True if the bound counts material i: an object is made of it, and it has a colour of its own.
+bool counts(const ShadingPlan& plan, const SceneFacts& facts, std::size_t i) {
+    return facts.drawn[i] && (plan.materials[i].stages & kStageShadowCatcher) == 0;
+}
+
+/// True if `test` is true for some material that counts.
 template <class Test>
-bool any_drawn(const ShadingPlan& plan, const SceneFacts& facts, const Test& test) {
+bool any_counted(const ShadingPlan& plan, const SceneFacts& facts, const Test& test) {
     for (std::size_t i = 0; i < plan.materials.size(); ++i)
-        if (facts.drawn[i] && (plan.materials[i].stages & kStageShadowCatcher) == 0 && test(plan.materials[i])) return true;
+        if (counts(plan, facts, i) && test(plan.materials[i])) return true;
     return false;
 }
 
@@ -170,11 +175,11 @@ double cutoff_squared(const LightPlan& light, double least) {
 }  // namespace
 
 bool looks_through(const ShadingPlan& plan, const SceneFacts& facts) {
-    return any_drawn(plan, facts, [](const MaterialPlan& material) { return material.transmission.looked_through; });
+    return any_counted(plan, facts, [](const MaterialPlan& material) { return material.transmission.looked_through; });
 }
 
 bool may_keep(const ShadingPlan& plan, double budget_codes, const SceneFacts& facts) {
-    return !looks_through(plan, facts) && !any_drawn(plan, facts, [&](const MaterialPlan& material) {
+    return !looks_through(plan, facts) && !any_counted(plan, facts, [&](const MaterialPlan& material) {
         return material.environment >= 0 && plan.environments[static_cast<std::size_t>(material.environment)].bound_codes > budget_codes;
     });
 }
@@ -182,12 +187,12 @@ bool may_keep(const ShadingPlan& plan, double budget_codes, const SceneFacts& fa
 double texels_of(const ShadingPlan& plan, const SceneFacts& facts) {
     std::set<const Texture*> textures;
     double texels = 0.0;
-    (void)any_drawn(plan, facts, [&](const MaterialPlan& material) {
-        for (const TexturePlan& texture : material.textures)
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        if (!counts(plan, facts, i)) continue;
+        for (const TexturePlan& texture : plan.materials[i].textures)
             if (texture.data != nullptr && textures.insert(texture.source).second)
                 for (int l = 0; l < texture.level_count; ++l) texels += static_cast<double>(texture.width[l]) * texture.height[l];
-        return false;
-    });
+    }
     return texels;
 }
 
@@ -218,7 +223,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
         const LayerCosts layers = layer_costs(costs, plan, material, s, light, reflections ? &*reflections : nullptr, exposure, facts);
         rounding.back() = std::min(rounding.back() + layers.codes, 255.0);
         fixed.push_back(rounding.back() + environment_codes(costs, plan, material, s, exposure));
-        if (!facts.drawn[rounding.size() - 1] || (material.stages & kStageShadowCatcher) != 0) continue;
+        if (!counts(plan, facts, rounding.size() - 1)) continue;
         poorest = std::min(poorest, budget_codes - fixed.back());
         most_reflected = std::max(most_reflected,
                                   s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0) + layers.reflected);
@@ -238,7 +243,7 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
 
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         MaterialPlan& material = plan.materials[i];
-        if (!facts.drawn[i] || (material.stages & kStageShadowCatcher) != 0) continue;
+        if (!counts(plan, facts, i)) continue;
         const Surface& s = surfaces[i];
         ErrorBound bound;
         bound.rounding = rounding[i];

@@ -1,7 +1,7 @@
 // Files that are either old or new, never half written. The bytes are written to a file without a name in the target's folder, and flushed
 // to the disk if there is an old file; then the file gets the target's name. Where the system has no such files, a temporary one is
-// renamed. If a step fails, the old file stays. After a power failure a new
-// file may be empty or incomplete; one that replaces another is complete.
+// renamed. If a step fails, the old file stays. After a power failure a new file may be empty or incomplete; one that replaces another is
+// complete.
 #pragma once
 
 #include "halflit/error.hpp"

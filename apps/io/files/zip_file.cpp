@@ -1,5 +1,6 @@
 #include "apps/io/files/zip_file.hpp"
 
+#include "apps/io/files/little_endian.hpp"
 #include "apps/io/files/load_failure.hpp"
 #include "apps/io/files/text.hpp"
 #include "sh/time_limit.hpp"
@@ -29,18 +30,6 @@ constexpr std::uint32_t kEndMark = 0x06054b50, kEntryMark = 0x02014b50, kHeaderM
     refuse(printable(entry.name, 120), "cannot be unpacked: " + what);
 }
 
-/// A number of little-endian bytes.
-template <class Number>
-Number number(std::span<const std::byte> bytes, std::size_t at) {
-    Number value = 0;
-    for (std::size_t i = 0; i < sizeof(Number); ++i)
-        value = static_cast<Number>(value | static_cast<Number>(std::to_integer<Number>(bytes[at + i]) << (8 * i)));
-    return value;
-}
-std::uint16_t u16(std::span<const std::byte> bytes, std::size_t at) { return number<std::uint16_t>(bytes, at); }
-std::uint32_t u32(std::span<const std::byte> bytes, std::size_t at) { return number<std::uint32_t>(bytes, at); }
-std::uint64_t u64(std::span<const std::byte> bytes, std::size_t at) { return number<std::uint64_t>(bytes, at); }
-
 /// True if bytes [at, at + size) are there.
 bool has(std::span<const std::byte> bytes, std::uint64_t at, std::uint64_t size) { return at <= bytes.size() && size <= bytes.size() - at; }
 
@@ -53,22 +42,22 @@ std::optional<std::size_t> find_end(std::span<const std::byte> bytes) {
     if (bytes.size() < kEndBytes) return std::nullopt;
     const std::size_t last = bytes.size() - kEndBytes, first = last - std::min(last, kMostComment);
     for (std::size_t at = last + 1; at-- > first;)
-        if (u32(bytes, at) == kEndMark && u16(bytes, at + 20) <= last - at) return at;
+        if (u32_at(bytes, at) == kEndMark && u16_at(bytes, at + 20) <= last - at) return at;
     return std::nullopt;
 }
 
 Directory find_directory(std::span<const std::byte> bytes) {
     const auto end = find_end(bytes);
     if (!end) fail_whole("it has no directory; it may be cut off");
-    Directory out{u32(bytes, *end + 16), u32(bytes, *end + 12), u16(bytes, *end + 10)};
+    Directory out{u32_at(bytes, *end + 16), u32_at(bytes, *end + 12), u16_at(bytes, *end + 10)};
     std::uint64_t behind = *end;
-    if (*end >= kLocatorBytes && u32(bytes, *end - kLocatorBytes) == kLocatorMark) {
-        const auto is_end = [&](std::uint64_t at) { return has(bytes, at, kEnd64Bytes) && u32(bytes, at) == kEnd64Mark; };
-        std::uint64_t at = u64(bytes, *end - kLocatorBytes + 8);
+    if (*end >= kLocatorBytes && u32_at(bytes, *end - kLocatorBytes) == kLocatorMark) {
+        const auto is_end = [&](std::uint64_t at) { return has(bytes, at, kEnd64Bytes) && u32_at(bytes, at) == kEnd64Mark; };
+        std::uint64_t at = u64_at(bytes, *end - kLocatorBytes + 8);
         // Behind other data its place is later than the locator says: mostly right before the locator.
         if (!is_end(at) && *end >= kLocatorBytes + kEnd64Bytes) at = *end - kLocatorBytes - kEnd64Bytes;
         if (!is_end(at)) fail_whole("its directory of 64 bits is missing");
-        out = {u64(bytes, at + 48), u64(bytes, at + 40), u64(bytes, at + 32)};
+        out = {u64_at(bytes, at + 48), u64_at(bytes, at + 40), u64_at(bytes, at + 32)};
         behind = at;
     }
     if (out.size > behind || out.first > behind - out.size) fail_whole("its directory is cut off");
@@ -81,14 +70,14 @@ Directory find_directory(std::span<const std::byte> bytes) {
 void read_large(std::span<const std::byte> extra, ZipFile::Entry& entry) {
     constexpr std::uint32_t kElsewhere = 0xffffffff;
     for (std::size_t at = 0; has(extra, at, 4);) {
-        const unsigned id = u16(extra, at), size = u16(extra, at + 2);
+        const unsigned id = u16_at(extra, at), size = u16_at(extra, at + 2);
         at += 4;
         if (!has(extra, at, size)) return;
         if (id == 1) {
             std::size_t next = at;
             for (std::uint64_t* const value : {&entry.bytes, &entry.packed_bytes, &entry.header_at}) {
                 if (*value != kElsewhere || next + 8 > at + size) continue;
-                *value = u64(extra, next);
+                *value = u64_at(extra, next);
                 next += 8;
             }
             return;
@@ -96,8 +85,6 @@ void read_large(std::span<const std::byte> extra, ZipFile::Entry& entry) {
         at += size;
     }
 }
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool is_before(std::string_view a, std::string_view b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) < lower(y); });
@@ -114,15 +101,15 @@ ZipFile::ZipFile(std::span<const std::byte> bytes) : bytes_(bytes) {
     TimeCheck check;
     for (std::size_t at = 0; entries_.size() < directory.entries;) {
         check();
-        if (!has(list, at, kEntryBytes) || u32(list, at) != kEntryMark) fail_whole("its directory is damaged");
-        const std::size_t name = u16(list, at + 28), extra = u16(list, at + 30), comment = u16(list, at + 32);
+        if (!has(list, at, kEntryBytes) || u32_at(list, at) != kEntryMark) fail_whole("its directory is damaged");
+        const std::size_t name = u16_at(list, at + 28), extra = u16_at(list, at + 30), comment = u16_at(list, at + 32);
         if (!has(list, at + kEntryBytes, name + extra + comment)) fail_whole("its directory is damaged");
         Entry& entry = entries_.emplace_back();
         entry.name = {reinterpret_cast<const char*>(list.data()) + at + kEntryBytes, name};
-        entry.encrypted = (u16(list, at + 8) & 1u) != 0;
-        entry.method = u16(list, at + 10);
-        entry.crc = u32(list, at + 16);
-        entry.packed_bytes = u32(list, at + 20), entry.bytes = u32(list, at + 24), entry.header_at = u32(list, at + 42);
+        entry.encrypted = (u16_at(list, at + 8) & 1u) != 0;
+        entry.method = u16_at(list, at + 10);
+        entry.crc = u32_at(list, at + 16);
+        entry.packed_bytes = u32_at(list, at + 20), entry.bytes = u32_at(list, at + 24), entry.header_at = u32_at(list, at + 42);
         read_large(list.subspan(at + kEntryBytes + name, extra), entry);
         if (entry.header_at > bytes.size()) fail_whole("its directory is damaged");
         entry.header_at += directory.begin;
@@ -146,9 +133,10 @@ std::span<const std::byte> ZipFile::packed(const Entry& entry) const {
     if (entry.encrypted) fail_entry(entry, "it is encrypted");
     if (entry.method != kStored && entry.method != kDeflated)
         fail_entry(entry, fmt::format("it is packed by method {}, expected 0 (stored) or 8 (deflated)", entry.method));
-    if (!has(bytes_, entry.header_at, kHeaderBytes) || u32(bytes_, entry.header_at) != kHeaderMark)
+    if (!has(bytes_, entry.header_at, kHeaderBytes) || u32_at(bytes_, entry.header_at) != kHeaderMark)
         fail_entry(entry, "its header is missing");
-    const std::uint64_t first = entry.header_at + kHeaderBytes + u16(bytes_, entry.header_at + 26) + u16(bytes_, entry.header_at + 28);
+    const std::uint64_t first =
+        entry.header_at + kHeaderBytes + u16_at(bytes_, entry.header_at + 26) + u16_at(bytes_, entry.header_at + 28);
     if (!has(bytes_, first, entry.packed_bytes)) fail_entry(entry, "it is cut off");
     return bytes_.subspan(first, entry.packed_bytes);
 }

@@ -84,7 +84,7 @@ private:
         std::uint32_t parent;  ///< a wedge of the same set, nearer to its root; a root is its own
         std::uint32_t number;  ///< of a root: of its set's normal, when it is known
     };
-    /// What a wedge has in common with others at the place.
+    /// The relation of a wedge to the others at the place.
     struct Copy {
         std::uint32_t ends[2];       ///< places of the triangle's next corner and of the one after it
         std::uint32_t of = kNone;    ///< the first wedge with the same ends; kNone: it is the first
