@@ -47,6 +47,13 @@ struct ProbeTaps {
     alignas(64) float ratio[kWidth];
 };
 
+/// Fetches the texels of one lane ahead, from two levels. All lanes are fetched before one is used: frames with large textures wait longer
+/// for texels than they compute with them. A magnified texture has its texels in the caches.
+HALFLIT_INLINE void fetch_ahead(const std::uint16_t* data, const PlaceTaps& taps, int lane) {
+    for (const LevelTaps* level : {&taps.near, &taps.far})
+        for (const int corner : {0, 2}) prefetch(data + 4 * static_cast<std::int64_t>(level->index[corner][lane]));
+}
+
 /// Not inlined, as filter_texels.
 [[gnu::noinline]] static void make_probes(const shading::TexturePlan& texture, const shading::FragmentBlock& block, int lane,
                                           ProbeTaps& out) {
@@ -71,6 +78,15 @@ struct ProbeTaps {
         probe(2 * i, F(static_cast<float>(i)));
         out.pairs = i;
     }
+    if (!out.at[0].two_levels) return;
+    for (int t = 0; t < texture.ahead_count; ++t)
+        for (int l = 0; l < kWidth; ++l) {
+            fetch_ahead(texture.ahead[t], out.at[0], l);
+            for (int i = 0; i < out.pairs && out.weight[i][l] > 0.0f; ++i) {
+                fetch_ahead(texture.ahead[t], out.at[2 * i + 1], l);
+                fetch_ahead(texture.ahead[t], out.at[2 * i + 2], l);
+            }
+        }
 }
 
 /// The weighted sum of plain probes. Each lane ends with its own last probe, as the others would add 0.

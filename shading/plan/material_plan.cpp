@@ -25,14 +25,21 @@ SlotMask slots_of(const MaterialPlan& plan, bool lit) {
     return slots;
 }
 
+/// Textures from this size on are fetched ahead: smaller ones stay in the caches of a core.
+constexpr std::size_t kLargeTexels = std::size_t{1} << 18;
+
 /// Numbers the textures' taps: textures with the same taps get the same number.
 void number_taps(MaterialPlan& plan) {
     std::int32_t number = 0;
     for (TexturePlan& texture : plan.textures) {
+        if (texture.data == nullptr) continue;
         TexturePlan* const end = &texture;
         const TexturePlan* const same = std::find_if(
             plan.textures.data(), end, [&](const TexturePlan& earlier) { return earlier.data != nullptr && same_taps(earlier, texture); });
         texture.taps = same == end ? ++number : same->taps;
+        if (texture.source->data().size() < 4 * kLargeTexels) continue;
+        for (TexturePlan* at = plan.textures.data(); at <= end; ++at)
+            if (at->taps == texture.taps) at->ahead[at->ahead_count++] = texture.data;
     }
 }
 

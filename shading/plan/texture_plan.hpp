@@ -1,6 +1,7 @@
 // Textures as the kernels read them.
 #pragma once
 
+#include "halflit/material.hpp"
 #include "halflit/shading.hpp"
 #include "halflit/texture.hpp"
 #include "shading/fragment_block.hpp"
@@ -18,7 +19,10 @@ struct TexturePlan {
     std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
     float row_u[3], row_v[3];  ///< texture transform
     std::int32_t uv_set = 0;
-    std::int32_t taps = 0;   ///< equal for textures of a material that are read at the same places; > 0
+    std::int32_t taps = 0;  ///< equal for textures of a material that are read at the same places; > 0
+    /// Texels that anisotropic filters fetch ahead: of this texture and those after it with the same taps, if they are large.
+    const std::uint16_t* ahead[kTextureSlots];
+    std::int32_t ahead_count = 0;
     bool transform = false;  ///< row_u, row_v are not the identity
     bool needs_lod = false;  ///< the kDu.. rows decide which level or which filter
     TextureWrap wrap_u, wrap_v;
