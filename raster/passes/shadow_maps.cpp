@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace halflit::raster {
+namespace {
+
+/// Geometry of more vertices is not kept for the next frame: the picture's takes as much again.
+constexpr std::int64_t kMostKeptVertices = std::int64_t{1} << 22;
+
+}  // namespace
 
 Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& plan, const ShadowView& face, float* texels,
                                    const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor) {
@@ -13,16 +19,17 @@ Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& p
         std::fill_n(distance, size * size, shading::kNoBlocker);
         return {};
     }
-    if (auto ok = geometry_.make(scene, face.view, raster, executor); !ok) return ok;
+    auto& [geometry, records] = *work_;
+    if (auto ok = geometry.make(scene, face.view, raster, executor); !ok) return ok;
     // Alpha tests read vertex records.
-    const bool masks = geometry_.has(AlphaMode::mask);
-    if (masks) records_.make(geometry_, plan.casters, raster, executor);
-    const TilePass pass{geometry_, records_, plan.casters, raster, shade, executor.stop(), false, true};
+    const bool masks = geometry.has(AlphaMode::mask);
+    if (masks) records.make(geometry, plan.casters, raster, executor);
+    const TilePass pass{geometry, records, plan.casters, raster, shade, executor.stop(), false, true};
     const DepthRange range{face.near_z, face.far_z, face.perspective};
     executor.run(face.view.tile_count(), [&](int tile) {
         const TileRect rect = face.view.tile_rect(tile);
         float* out = distance + static_cast<std::size_t>(rect.y) * size + static_cast<std::size_t>(rect.x);
-        if (geometry_.tile_is_empty(tile)) {
+        if (geometry.tile_is_empty(tile)) {
             for (int y = 0; y < rect.height; ++y, out += size) std::fill_n(out, rect.width, shading::kNoBlocker);
             return;
         }
@@ -47,6 +54,7 @@ Result<void> ShadowMaps::draw(const PreparedData& scene, const FramePlan& plan, 
         if (i < before.views.size() && before.views[i] == face) continue;
         if (auto ok = draw_face(scene, plan, face, texels.data(), raster, shade, executor); !ok) return ok;
     }
+    if (work_->geometry.vertex_count() > kMostKeptVertices) work_ = std::make_unique<Workspace>();
     drawn_ = {texels.capacity(), revision.geometry, revision.coverage, plan.options.texture_detail, plan.shadow_views};
     return {};
 }

@@ -4,6 +4,8 @@
 #include "raster/frame_plan.hpp"
 #include "raster/passes/tile.hpp"
 
+#include <memory>
+
 namespace halflit::raster {
 
 /// Draws the shadow maps of a plan into `texels`. A map is kept while its view and the scene's geometry and coverage stay the same.
@@ -26,9 +28,14 @@ private:
     Result<void> draw_face(const PreparedData& scene, const FramePlan& plan, const ShadowView& face, float* texels,
                            const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor);
 
+    /// What the faces of maps are drawn from, one after the other.
+    struct Workspace {
+        ViewGeometry geometry;
+        VertexRecords records;
+    };
+
     Drawn drawn_;
-    ViewGeometry geometry_;
-    VertexRecords records_;
+    std::unique_ptr<Workspace> work_ = std::make_unique<Workspace>();
     Pool<TileScratch> scratch_;
 };
 

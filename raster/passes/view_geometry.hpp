@@ -99,6 +99,8 @@ public:
     [[nodiscard]] const View& view() const { return view_; }
     [[nodiscard]] const PreparedData& scene() const { return *scene_; }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
+    /// Vertices of all draws, seen or not.
+    [[nodiscard]] std::int64_t vertex_count() const { return vertex_count_; }
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
     /// True if some draw's mesh has fewer than 1.5 vertices a triangle.
     [[nodiscard]] bool few_vertices() const { return few_vertices_; }
