@@ -95,7 +95,9 @@ struct BinnedTriangles {
 /// Vertex records for shading: per vertex the slots named by `slots`, four floats each, in slot order.
 struct VertexRecordArgs {
     const float *positions, *normals, *tangents, *uv0, *uv1, *colors;  ///< packed; null: a default value is written
-    std::int64_t begin, end;
+    std::int64_t begin, end;                                           ///< records
+    const std::uint32_t* vertices = nullptr;                           ///< vertex of record i at i << vertex_shift; null: its number is i
+    int vertex_shift = 0;
     shading::SlotMask slots;
     float world_from_object[16];
     float normal_from_object[12];  ///< three columns of four, the fourth entry unused

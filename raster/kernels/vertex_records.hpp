@@ -55,14 +55,16 @@ HALFLIT_INLINE void vertex_records_at(const VertexRecordArgs& args, std::int64_t
     }
 }
 
-/// Fewer than kWidth vertices: by way of copies with room for a whole vector.
-[[gnu::noinline]] static void few_vertex_records(const VertexRecordArgs& args) {
+/// At most kWidth records from `begin` on: by way of copies with room for a whole vector.
+[[gnu::noinline]] static void copied_vertex_records(const VertexRecordArgs& args, std::int64_t begin, std::int64_t count) {
     float in[6][4 * kWidth] = {}, records[shading::kVertexFloats * kWidth];
     VertexRecordArgs padded = args;
-    const std::int64_t count = args.end - args.begin;
     const auto copy = [&](const float*& from, int size, float* to) {
         if (from == nullptr) return;
-        for (std::int64_t i = 0; i < size * count; ++i) to[i] = from[size * args.begin + i];
+        for (std::int64_t i = 0; i < count; ++i) {
+            const std::int64_t vertex = args.vertices != nullptr ? args.vertices[(begin + i) << args.vertex_shift] : begin + i;
+            for (int k = 0; k < size; ++k) to[size * i + k] = from[size * vertex + k];
+        }
         from = to;
     };
     copy(padded.positions, 3, in[0]);
@@ -73,11 +75,16 @@ HALFLIT_INLINE void vertex_records_at(const VertexRecordArgs& args, std::int64_t
     copy(padded.colors, 4, in[5]);
     padded.records = records;
     vertex_records_at(padded, 0);
-    for (std::int64_t i = 0; i < args.stride * count; ++i) args.records[args.stride * args.begin + i] = records[i];
+    for (std::int64_t i = 0; i < args.stride * count; ++i) args.records[args.stride * begin + i] = records[i];
 }
 
 inline void vertex_records(const VertexRecordArgs& args) {
-    if (args.end - args.begin < kWidth) return few_vertex_records(args);
+    if (args.vertices != nullptr) {
+        for (std::int64_t v = args.begin; v < args.end; v += kWidth)
+            copied_vertex_records(args, v, args.end - v < kWidth ? args.end - v : kWidth);
+        return;
+    }
+    if (args.end - args.begin < kWidth) return copied_vertex_records(args, args.begin, args.end - args.begin);
     for (std::int64_t v = args.begin; v + kWidth <= args.end; v += kWidth) vertex_records_at(args, v);
     vertex_records_at(args, args.end - kWidth);  // the rest, and some that are made already
 }

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kInstancesPerTask = 1024;
 constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< clusters in a chunk; chunks in a view
+/// Views of more vertices are made in batches of about so many, 17 bytes each.
+constexpr std::int64_t kMostVerticesAtOnce = std::int64_t{1} << 20;
 constexpr std::int64_t kMostTileLists = 1 << 22;  ///< chunks times tiles of a view, for four chunks or more; an empty list takes 4 bytes
 
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces, Topology topology) {
@@ -27,6 +29,13 @@ Culler::Verdict verdict_on(const Culler& culler, const Bounds& bounds) {
     return culler.box(min, max);
 }
 
+/// Index of the draw that has a cluster.
+std::size_t draw_of_cluster(std::span<const Draw> draws, std::int64_t cluster) {
+    const auto next =
+        std::upper_bound(draws.begin(), draws.end(), cluster, [](std::int64_t c, const Draw& d) { return c < d.cluster_base; });
+    return static_cast<std::size_t>(next - draws.begin()) - 1;
+}
+
 /// Culls the clusters of one chunk.
 class ChunkCuller {
 public:
@@ -35,9 +44,7 @@ public:
 
     void cull(const std::vector<Draw>& draws) {
         chunk_.runs.clear();
-        auto draw = std::upper_bound(draws.begin(), draws.end(), chunk_.first_cluster,
-                                     [](std::int64_t cluster, const Draw& d) { return cluster < d.cluster_base; }) -
-                    1;
+        auto draw = draws.begin() + static_cast<std::ptrdiff_t>(draw_of_cluster(draws, chunk_.first_cluster));
         for (std::int64_t c = chunk_.first_cluster; c < chunk_.end_cluster; ++draw) {
             const std::int64_t end =
                 std::min(chunk_.end_cluster, draw->cluster_base + static_cast<std::int64_t>(scene_.mesh(draw->mesh).cluster_count()));
@@ -116,7 +123,7 @@ void ViewGeometry::list_draws(Executor& executor) {
         draw.instance = static_cast<std::uint32_t>(i);
         draw.mesh = instances[i].mesh;
         draw.topology = mesh.topology;
-        draw.vertex_count = static_cast<std::int64_t>(mesh.positions.size());
+        draw.vertex_count = draw.record_count = static_cast<std::int64_t>(mesh.positions.size());
         draw.material = static_cast<std::int32_t>(scene_->material_of(i));
         draw.vertex_base = vertex_count_;
         draw.group_base = group_count_;
@@ -136,20 +143,60 @@ void ViewGeometry::list_draws(Executor& executor) {
     }
 }
 
+/// Chunks of about as many clusters each. They end where a draw does, if one does nearby.
+void ViewGeometry::divide_into_chunks() {
+    const std::int64_t most = std::clamp<std::int64_t>(kMostTileLists / std::max(view_.tile_count(), 1), 4, kMostChunks);
+    const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + most - 1) / most);
+    chunk_count_ = 0;
+    for (std::int64_t first = 0, aim = size; first < cluster_count_; aim += size) {
+        std::int64_t end = std::min(aim, cluster_count_);
+        if (end < cluster_count_) {
+            const std::size_t d = draw_of_cluster(draws_, end);
+            const std::int64_t begin_of_draw = draws_[d].cluster_base;
+            const std::int64_t end_of_draw = d + 1 < draws_.size() ? draws_[d + 1].cluster_base : cluster_count_;
+            const std::int64_t nearest = end - begin_of_draw <= end_of_draw - end ? begin_of_draw : end_of_draw;
+            if (std::abs(nearest - end) <= size / 2) end = nearest;
+        }
+        if (end <= first) continue;
+        if (chunks_.size() == chunk_count_) chunks_.push_back(std::make_unique<Chunk>());
+        Chunk& chunk = *chunks_[chunk_count_++];
+        chunk.first_cluster = first;
+        chunk.end_cluster = first = end;
+    }
+}
+
+/// One batch, or several if there are many vertices. Then draws' vertices are numbered within their batch.
+void ViewGeometry::divide_into_batches() {
+    batches_.assign(1, {});
+    for (std::size_t c = 0; c < chunk_count_; ++c) {
+        const Chunk& chunk = *chunks_[c];
+        const std::size_t first = draw_of_cluster(draws_, chunk.first_cluster);
+        const Draw& last = draws_[draw_of_cluster(draws_, chunk.end_cluster - 1)];
+        const auto base = [&](std::size_t draw) { return draws_[draw].vertex_base / 4 * 4; };
+        const std::int64_t end_vertex = last.vertex_base + last.view_vertex_count();
+        const bool is_cut = chunk.first_cluster == draws_[first].cluster_base && batches_.back().end_chunk > batches_.back().first_chunk &&
+                            end_vertex - base(batches_.back().first_draw) > kMostVerticesAtOnce;
+        if (is_cut) batches_.push_back({first, first, c, c, 0});
+        Batch& batch = batches_.back();
+        batch.end_chunk = c + 1;
+        batch.end_draw = static_cast<std::size_t>(&last - draws_.data()) + 1;
+        batch.vertex_count = end_vertex - base(batch.first_draw);
+    }
+    for (const Batch& batch : batches_) {
+        if (batch.first_draw == batch.end_draw) continue;
+        const std::int64_t base = draws_[batch.first_draw].vertex_base / 4 * 4;
+        for (std::size_t d = batch.first_draw; d < batch.end_draw; ++d) draws_[d].vertex_base -= base;
+    }
+}
+
 void ViewGeometry::cull_clusters(Executor& executor) {
     const auto groups = static_cast<std::size_t>(group_count_);
     std::memset(groups_seen_.reserve(groups + 1), 0, groups + 1);
     std::memset(groups_drawn_.reserve(groups + 1), 0, groups + 1);
-    const std::int64_t chunks = std::clamp<std::int64_t>(kMostTileLists / std::max(view_.tile_count(), 1), 4, kMostChunks);
     one_material_ = draws_.empty() ? -1 : draws_[0].material;
     for (const Draw& draw : draws_) one_material_ = draw.material == one_material_ ? one_material_ : -1;
-    const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + chunks - 1) / chunks);
-    chunk_count_ = static_cast<std::size_t>((cluster_count_ + size - 1) / size);
-    while (chunks_.size() < chunk_count_) chunks_.push_back(std::make_unique<Chunk>());
     executor.run(static_cast<int>(chunk_count_), [&](int i) {
         Chunk& chunk = *chunks_[static_cast<std::size_t>(i)];
-        chunk.first_cluster = i * size;
-        chunk.end_cluster = std::min(chunk.first_cluster + size, cluster_count_);
         ChunkCuller(*scene_, view_, chunk, groups_seen_.data()).cull(draws_);
     });
 }

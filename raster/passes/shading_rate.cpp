@@ -58,7 +58,7 @@ WorkCounts light_vertices(const ViewGeometry& geometry, VertexRecords& records, 
                           const shading::ShadeKernels& kernels, Executor& executor) {
     struct Group {
         std::size_t draw;
-        std::int64_t first;  // vertex of the draw
+        std::int64_t first;  // record of the draw
         int count;
     };
     const auto material_of = [&](std::size_t draw) -> const shading::MaterialPlan& {
@@ -71,7 +71,7 @@ WorkCounts light_vertices(const ViewGeometry& geometry, VertexRecords& records, 
         for (std::int64_t g = 0; g < draw.group_count(); ++g)
             if (geometry.group_is_drawn(draw.group_base + g)) {
                 const std::int64_t first = g * kVertexGroup;
-                groups.push_back({d, first, static_cast<int>(std::min<std::int64_t>(kVertexGroup, draw.vertex_count - first))});
+                groups.push_back({d, first, static_cast<int>(std::min<std::int64_t>(kVertexGroup, draw.record_count - first))});
             }
     }
     records.changed();

@@ -8,14 +8,17 @@
 
 namespace halflit::raster {
 
-void ViewGeometry::transform(const RasterKernels& kernels, Executor& executor) {
+void ViewGeometry::transform(const Batch& batch, const RasterKernels& kernels, Executor& executor) {
     constexpr std::int64_t kGroupsPerTask = 64;
-    ScreenVertex* screen = screen_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
-    std::uint8_t* outcodes = outcodes_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
+    if (batch.first_draw == batch.end_draw) return;
+    ScreenVertex* screen = screen_.reserve(static_cast<std::size_t>(batch.vertex_count), executor.stop());
+    std::uint8_t* outcodes = outcodes_.reserve(static_cast<std::size_t>(batch.vertex_count), executor.stop());
+    const Draw& last_draw = draws_[batch.end_draw - 1];
+    const std::int64_t first_group = draws_[batch.first_draw].group_base, end_group = last_draw.group_base + last_draw.group_count();
     const std::uint8_t* seen = groups_seen_.data();
-    executor.run(static_cast<int>((group_count_ + kGroupsPerTask - 1) / kGroupsPerTask), [&](int task) {
-        std::int64_t group = task * kGroupsPerTask;
-        const std::int64_t end = std::min(group + kGroupsPerTask, group_count_);
+    executor.run(static_cast<int>((end_group - first_group + kGroupsPerTask - 1) / kGroupsPerTask), [&](int task) {
+        std::int64_t group = first_group + task * kGroupsPerTask;
+        const std::int64_t end = std::min(group + kGroupsPerTask, end_group);
         auto draw =
             std::upper_bound(draws_.begin(), draws_.end(), group, [](std::int64_t g, const Draw& d) { return g < d.group_base; }) - 1;
         for (; group < end; ++draw) {

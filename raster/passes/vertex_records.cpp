@@ -55,7 +55,7 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
     for (std::size_t d = 0; d < draws.size(); ++d) {
         strides_[d] = 4 * std::popcount(slots_[static_cast<std::size_t>(draws[d].material)]);
         record_bases_[d] = size;
-        size += draws[d].vertex_count * strides_[d];
+        size += draws[d].record_count * strides_[d];
     }
     float* records = records_.reserve(static_cast<std::size_t>(size), executor.stop());
     for (std::size_t d = 0; d < draws.size(); ++d) {
@@ -79,8 +79,10 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
                     args = record_args(*draw, geometry.scene().source_mesh(draw->mesh),
                                        geometry.scene().scene().instances[draw->instance].world_from_object,
                                        slots_[static_cast<std::size_t>(draw->material)], records + record_bases_[d], strides_[d]);
+                if (geometry.is_kept())
+                    args.vertices = geometry.mesh_vertices() + draw->vertex_base, args.vertex_shift = draw->vertex_shift();
                 args.begin = (group - draw->group_base) * kVertexGroup;
-                args.end = std::min(args.begin + kVertexGroup, draw->vertex_count);
+                args.end = std::min(args.begin + kVertexGroup, draw->record_count);
                 kernels.vertex_records(args);
             }
         }

@@ -27,9 +27,9 @@ public:
         return draw_records_[draw].of(vertex, strides_[draw]);
     }
 
-    /// Record of a vertex of a draw; vertex: number within the mesh. A caller that writes to it must call changed().
-    [[nodiscard]] float* record(std::size_t draw, std::int64_t vertex) {
-        return records_.data() + record_bases_[draw] + vertex * strides_[draw];
+    /// Record of a draw, below Draw::record_count. A caller that writes to it must call changed().
+    [[nodiscard]] float* record(std::size_t draw, std::int64_t number) {
+        return records_.data() + record_bases_[draw] + number * strides_[draw];
     }
     void changed() { version_ = 0; }
     /// Makes the records of clip vertices from those of their triangles' vertices.

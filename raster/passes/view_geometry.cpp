@@ -5,6 +5,13 @@
 #include <algorithm>
 
 namespace halflit::raster {
+namespace {
+
+constexpr std::int64_t kMostVertices = kClipVertex;
+
+tl::unexpected<Error> fail_too_many_vertices() { return fail(ErrorCode::limit, "more than 2^31 vertices in view"); }
+
+}  // namespace
 
 Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, const RasterKernels& kernels, Executor& executor,
                                 bool numbered) {
@@ -22,22 +29,77 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     ++version_;
     Stopwatch watch;
     list_draws(executor);
-    if (vertex_count_ >= static_cast<std::int64_t>(kClipVertex)) return fail(ErrorCode::limit, "more than 2^31 vertices in view");
     if (triangle_count_ >= (std::int64_t{1} << 28)) return fail(ErrorCode::limit, "more than 2^28 triangles in view");
+    divide_into_chunks();
+    divide_into_batches();
     cull_clusters(executor);
     times_ms_.cull = watch.lap();
-    transform(kernels, executor);
-    times_ms_.transform = watch.lap();
-    bin(kernels, executor);
-    times_ms_.bin = watch.lap();
+    for (const Batch& batch : batches_) {
+        if (batch.vertex_count >= kMostVertices) return fail_too_many_vertices();
+        transform(batch, kernels, executor);
+        times_ms_.transform += watch.lap();
+        bin(batch, kernels, executor);
+        times_ms_.bin += watch.lap();
+    }
+    if (is_kept())
+        if (auto ok = number_kept_vertices(executor); !ok) return ok;
+    list_sources();
+    times_ms_.bin += watch.lap();
     revision_ = revision;
+    return {};
+}
+
+/// Gives the kept vertices of all chunks one numbering, that of the view, and moves them to its arrays.
+Result<void> ViewGeometry::number_kept_vertices(Executor& executor) {
+    std::vector<std::int64_t> bases;
+    for (Draw& draw : draws_) draw.record_count = -1;  // has no vertex yet
+    std::int64_t count = 0;
+    for (std::size_t c = 0; c < chunk_count_; ++c) {
+        const KeptVertices& kept = chunks_[c]->kept;
+        bases.push_back(count);
+        for (const KeptVertices::Part& part : kept.parts) {
+            Draw& draw = draws_[part.draw];
+            if (draw.record_count >= 0) continue;  // it goes on from the last chunk, whose last vertices are its own
+            draw.record_count = 0;
+            draw.vertex_base = count + part.first;
+        }
+        count += static_cast<std::int64_t>(kept.screen.size());
+    }
+    if (count >= kMostVertices) return fail_too_many_vertices();
+    vertex_count_ = count;
+    for (std::size_t d = draws_.size(); d-- > 0;) {
+        Draw& draw = draws_[d];
+        if (draw.record_count < 0) draw.vertex_base = count;
+        draw.record_count = (count - draw.vertex_base) >> draw.vertex_shift();
+        count = draw.vertex_base;
+    }
+    group_count_ = 0;
+    for (Draw& draw : draws_) {
+        draw.group_base = group_count_;
+        group_count_ += draw.group_count();
+    }
+    ScreenVertex* const screen = kept_screen_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
+    std::uint32_t* const mesh_vertices = mesh_vertices_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
+    executor.run(static_cast<int>(chunk_count_), [&](int i) {
+        Chunk& chunk = *chunks_[static_cast<std::size_t>(i)];
+        const std::int64_t base = bases[static_cast<std::size_t>(i)];
+        const auto renumber = [base](std::uint32_t& v) {
+            if (v < kClipVertex) v += static_cast<std::uint32_t>(base);
+        };
+        for (TriangleRecord& record : chunk.records) std::for_each(std::begin(record.vertex), std::end(record.vertex), renumber);
+        for (ClipVertex& vertex : chunk.clip_vertices) std::for_each(std::begin(vertex.parent), std::end(vertex.parent), renumber);
+        std::copy(chunk.kept.screen.begin(), chunk.kept.screen.end(), screen + base);
+        std::copy(chunk.kept.mesh_vertex.begin(), chunk.kept.mesh_vertex.end(), mesh_vertices + base);
+        chunk.kept = {};
+        chunk.memory.hold(executor.stop(), chunk.bytes());
+    });
     return {};
 }
 
 std::size_t Chunk::bytes() const {
     const auto size = [](const auto& list) { return list.capacity() * sizeof list[0]; };
     return size(runs) + size(records) + size(numbers) + size(clip_screen) + size(clip_vertices) + size(pairs) + size(tile_begin) +
-           size(tile_list);
+           size(tile_list) + size(kept.parts) + size(kept.screen) + size(kept.mesh_vertex);
 }
 
 void Chunk::drop_lists() {

@@ -1,6 +1,9 @@
 // The geometry of one view: the instances and clusters that it may see, their vertices in its window, and each tile's triangles. Made by
 // three passes, which read a PreparedData and a View and do not depend on lights:
 //     cull -> transform -> bin (set-up and tile lists)
+//
+// Views of many vertices are transformed and binned in batches, from draw to draw, and keep the vertices alone that their triangles use
+// (keep_vertices.hpp): an instance takes 150 bytes of a file and could take megabytes of memory.
 // It is kept from frame to frame: the passes do not run again if neither scene nor view changed, and a frame like the last one allocates
 // nothing.
 #pragma once
@@ -24,7 +27,7 @@ struct Draw {
     std::uint32_t instance = 0;
     std::int32_t mesh = 0;           ///< a number, as the scene's arrays may be moved between frames
     std::int32_t material = 0;       ///< index as in PreparedData
-    std::int64_t vertex_base = 0;    ///< index of its first vertex in the view's arrays, a multiple of four for lines and points
+    std::int64_t vertex_base = 0;    ///< index of its first vertex in the view's or batch's arrays, a multiple of four for lines and points
     std::int64_t group_base = 0;     ///< index of its first vertex group
     std::int64_t cluster_base = 0;   ///< index of its first cluster, over all draws
     std::int64_t triangle_base = 0;  ///< number of its first triangle in submission order, over all instances of the scene
@@ -34,12 +37,13 @@ struct Draw {
     Topology topology = Topology::triangles;
 
     std::int64_t vertex_count = 0;  ///< of the mesh
+    std::int64_t record_count = 0;  ///< vertices of the mesh that have a number in the view: all of them, or those that are kept
     [[nodiscard]] bool quads() const { return topology != Topology::triangles; }
     /// Vertex of the mesh from one of the view's: their number >> this. A quad has four of the view's vertices and one or two of the
     /// mesh's.
     [[nodiscard]] int vertex_shift() const { return topology == Topology::triangles ? 0 : topology == Topology::lines ? 1 : 2; }
     [[nodiscard]] std::int64_t view_vertex_count() const { return vertex_count << vertex_shift(); }
-    [[nodiscard]] std::int64_t group_count() const { return (vertex_count + kVertexGroup - 1) / kVertexGroup; }
+    [[nodiscard]] std::int64_t group_count() const { return (record_count + kVertexGroup - 1) / kVertexGroup; }
 };
 
 /// Consecutive triangles of one draw.
@@ -53,6 +57,22 @@ struct ClipVertex {
     std::uint32_t parent[3];
     std::uint32_t draw;
     float weight[3];
+};
+
+/// Vertices that the triangles of a chunk use, in the order of draws. Their number is a multiple of four.
+struct KeptVertices {
+    struct Part {
+        std::uint32_t draw, first;  ///< number of its first vertex
+    };
+    std::vector<Part> parts;
+    std::vector<ScreenVertex> screen;
+    std::vector<std::uint32_t> mesh_vertex;  ///< of each
+};
+
+/// Consecutive chunks, and draws that no other batch has: their vertices are transformed and binned before those of the next batch.
+struct Batch {
+    std::size_t first_draw = 0, end_draw = 0, first_chunk = 0, end_chunk = 0;
+    std::int64_t vertex_count = 0;
 };
 
 /// Consecutive triangles in submission order. One task culls them and sets them up, into the chunk's own lists.
@@ -69,6 +89,7 @@ struct Chunk {
     int material = -1;             ///< of all its triangles; -1: they have several
     bool listed = true;            ///< false: too many entries, so there are no lists
     std::uint64_t not_finite = 0;  ///< triangles dropped for a NaN or infinite vertex
+    KeptVertices kept;             ///< in batches, until all of them are made
     MemoryShare memory;
 
     [[nodiscard]] std::size_t bytes() const;  ///< memory of all lists
@@ -130,16 +151,24 @@ public:
     /// Records of a chunk that may cover something of a tile, in submission order. scratch: may hold the result.
     [[nodiscard]] std::span<const std::uint32_t> tile_list(std::size_t chunk, int tile, std::vector<std::uint32_t>& scratch) const;
 
-    /// True if a drawn triangle reads the vertex group.
-    [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return groups_drawn_.data()[group] != 0; }
+    /// True if a drawn triangle reads the group of kVertexGroup records.
+    [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return is_kept() || groups_drawn_.data()[group] != 0; }
+    /// True if the view has the vertices alone that triangles use.
+    [[nodiscard]] bool is_kept() const { return batches_.size() > 1; }
+    /// The mesh's vertex for each of the view's; only if is_kept().
+    [[nodiscard]] const std::uint32_t* mesh_vertices() const { return mesh_vertices_.data(); }
     [[nodiscard]] std::uint64_t triangles_drawn() const;
     [[nodiscard]] std::uint64_t triangles_not_finite() const;
 
 private:
     void list_draws(Executor& executor);
+    void divide_into_chunks();
+    void divide_into_batches();
     void cull_clusters(Executor& executor);
-    void transform(const RasterKernels& kernels, Executor& executor);
-    void bin(const RasterKernels& kernels, Executor& executor);
+    void transform(const Batch& batch, const RasterKernels& kernels, Executor& executor);
+    void bin(const Batch& batch, const RasterKernels& kernels, Executor& executor);
+    Result<void> number_kept_vertices(Executor& executor);
+    void list_sources();
 
     const PreparedData* scene_ = nullptr;
     SceneRevision revision_;
@@ -154,8 +183,11 @@ private:
     std::int64_t vertex_count_ = 0, group_count_ = 0, cluster_count_ = 0, triangle_count_ = 0;
     RawBuffer<std::uint8_t> seen_;  ///< per instance; scratch
     RawBuffer<std::uint8_t> groups_seen_, groups_drawn_;
-    RawBuffer<ScreenVertex> screen_;
+    RawBuffer<ScreenVertex> screen_;  ///< of the view, or of one batch at a time
     RawBuffer<std::uint8_t> outcodes_;
+    std::vector<Batch> batches_;
+    RawBuffer<ScreenVertex> kept_screen_;
+    RawBuffer<std::uint32_t> mesh_vertices_;
     std::vector<std::unique_ptr<Chunk>> chunks_;
     std::size_t chunk_count_ = 0;
     int local_bits_ = 0;

@@ -1,0 +1,75 @@
+// Views of many vertices are transformed and binned in batches and keep the vertices alone that their triangles use. No bit may change.
+#include "tests/raster/metamorphic_shots.hpp"
+
+#include "tests/support/catch.hpp"
+#include "tests/support/isas.hpp"
+
+using namespace halflit;
+using namespace halflit::raster;
+using namespace halflit::raster::test;
+
+namespace {
+
+/// Lines and points, and triangles that reach behind the camera.
+void add_odd_things(Random& random, Shot& shot) {
+    Scene& scene = shot.scene;
+    for (const Topology topology : {Topology::lines, Topology::points}) {
+        Mesh mesh;
+        mesh.topology = topology;
+        mesh.material = 0;
+        for (int i = 0; i < 50; ++i) mesh.positions.push_back({random.real32(-2, 2), random.real32(-2, 2), random.real32(-2, 2)});
+        scene.instances.push_back({static_cast<int>(scene.meshes.size()), {}});
+        scene.meshes.push_back(std::move(mesh));
+    }
+    const Vec4f eye = shot.camera.world_from_camera.c[3];
+    Mesh mesh;
+    mesh.material = 0;
+    for (int i = 0; i < 60; ++i)
+        mesh.positions.push_back({eye.x + random.real32(-9, 9), eye.y - random.real32(0.5, 1), eye.z + random.real32(-9, 9)});
+    for (std::uint32_t i = 0; i < 60; ++i) mesh.indices.push_back(i);
+    generate_flat_normals(mesh);
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()), {}});
+    scene.meshes.push_back(std::move(mesh));
+    shot.settings.point_size = 3;
+}
+
+/// Instances between the others, of two million vertices that all lie in one place of the scene: triangles without area.
+void add_vertices(Scene& scene) {
+    constexpr std::uint32_t kVertices = 1 << 17;
+    Mesh dense;
+    dense.material = 0;
+    dense.positions.assign(kVertices, scene.meshes[0].positions[0]);
+    dense.normals.assign(kVertices, {0, 1, 0});
+    for (std::uint32_t i = 0; i < kVertices / 3 * 3; ++i) dense.indices.push_back(i);
+    const Mat4 place = scene.instances[0].world_from_object;
+    std::vector<Instance> instances;
+    for (std::size_t i = 0; i < std::max<std::size_t>(16, scene.instances.size()); ++i) {
+        if (i < 16) instances.push_back({static_cast<int>(scene.meshes.size()), place});
+        if (i < scene.instances.size()) instances.push_back(scene.instances[i]);
+    }
+    scene.meshes.push_back(std::move(dense));
+    scene.instances = std::move(instances);
+}
+
+}  // namespace
+
+TEST_CASE("batches: a view of many vertices has the pixels of the same view without them", "[raster][batches]") {
+    const auto isas = halflit::test::available_isas();
+    std::uint64_t visible = 0;
+    constexpr std::uint64_t kScenes = 30;
+    for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+        Random random(seed + 77);
+        Shot shot = any_shot(seed);
+        add_odd_things(random, shot);
+        shot.settings.shading.max_error_codes = 0;  // a budget's lights depend on where vertices are
+        const Isa isa = isas[static_cast<std::size_t>(random.index(static_cast<int>(isas.size())))];
+        const Execution execution = execution_of(1 + static_cast<int>(seed % 2), 64, isa);
+        const Pixels few = draw(shot, execution);
+        add_vertices(shot.scene);
+        const Pixels many = draw(shot, execution);
+        INFO("seed " << seed << ", " << isa_name(isa));
+        CHECK(differing(few, many) == 0);
+        visible += few.visible;
+    }
+    CHECK(visible > kScenes * kViewWidth * kViewHeight / 5);
+}
