@@ -1,6 +1,7 @@
 // Small frames of the common kinds of work, whose instructions speed_floor.py counts under valgrind's callgrind. Run without valgrind it
 // draws them and prints nothing but errors.
 // Exit code: 0 drawn, 1 failed, 4 skipped (the processor lacks the instruction set).
+#include "halflit/auto_setup.hpp"
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 #include "tests/support/random.hpp"
@@ -100,6 +101,40 @@ std::shared_ptr<const Environment> sky() {
     return *make_environment(image);
 }
 
+/// The picture of a file with this mesh, as the command line draws it without flags: view, studio, key light with a shadow, four samples.
+Subject default_picture(const char* name, Mesh mesh, bool textured = false) {
+    Subject subject{name, {}, {}, {}};
+    Material material;
+    material.metallic = textured ? 0.5f : 0.0f;
+    material.roughness = textured ? 0.4f : 0.8f;
+    subject.scene.materials.push_back(material);
+    mesh.material = 0;
+    if (textured) generate_tangents(mesh, 0);
+    subject.scene.meshes.push_back(std::move(mesh));
+    subject.scene.instances.push_back({0, {}});
+    if (textured) add_textures(subject.scene);
+    AutoSetup setup = auto_setup(subject.scene, kWidth, kHeight);
+    subject.scene.Lighting::operator=(std::move(setup.light));
+    subject.camera = setup.camera;
+    subject.settings = setup.settings;
+    return subject;
+}
+
+/// Boxes apart from each other, of flat faces.
+Mesh heap() {
+    Random random(9);
+    Mesh mesh;
+    for (int i = 0; i < 60; ++i) {
+        const Mesh box = make_box({random.real32(0.05, 0.3), random.real32(0.05, 0.3), random.real32(0.05, 0.3)});
+        const Vec3f at{random.real32(-1, 1), random.real32(-1, 1), random.real32(-1, 1)};
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const Vec3f& p : box.positions) mesh.positions.push_back(p + at);
+        mesh.normals.insert(mesh.normals.end(), box.normals.begin(), box.normals.end());
+        for (const std::uint32_t index : box.indices) mesh.indices.push_back(first + index);
+    }
+    return mesh;
+}
+
 std::vector<Subject> subjects() {
     std::vector<Subject> all;
     all.push_back(subject_of("small-triangles", make_sphere_of(1.0f, 20000), 3.0f));
@@ -121,6 +156,9 @@ std::vector<Subject> subjects() {
     all.push_back(subject_of("blended-layers", layers(6), 4.0f));
     all.back().scene.materials[0].alpha_mode = AlphaMode::blend;
     all.back().scene.materials[0].base_color.w = 0.5f;
+    all.push_back(default_picture("default-smooth", make_torus(1.0f, 0.4f, 120, 60)));
+    all.push_back(default_picture("default-textured", make_sphere_of(1.0f, 2000), true));
+    all.push_back(default_picture("default-flat", heap()));
     return all;
 }
 
