@@ -23,6 +23,7 @@ void usage(std::FILE* to) {
         "  --size WxH              size of the picture (default 1920x1080)\n"
         "  --textures rgba16|srgb8 llvmpipe's textures: halflit's texels (default), or rounded to 8 bits\n"
         "  --filter usual|fast     llvmpipe's filters: as they come (default), or with its shortcuts\n"
+        "  --shader usual|special  llvmpipe's highlights: by pow (default), or their exponent 30 written as products\n"
         "  --clock wall|cpu        time that passes (default), or CPU time of all threads together\n"
         "  --no-first              leave out first frames and memory\n"
         "  --pictures DIR          write both pictures of each scene there\n"
@@ -95,6 +96,7 @@ bool read_flag(std::string_view flag, const std::string& value, Flags& flags) {
     };
     if (flag == "--textures") return one_of("rgba16", "srgb8", flags.storage);
     if (flag == "--filter") return one_of("usual", "fast", flags.filter);
+    if (flag == "--shader") return one_of("usual", "special", flags.shader);
     if (flag == "--clock") return one_of("wall", "cpu", flags.limits.clock);
     if (flag == "--pictures") return flags.pictures = value, true;
     if (flag == "--glb") return flags.glb = value, true;

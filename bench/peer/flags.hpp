@@ -15,6 +15,7 @@ struct Flags {
     Limits limits;
     TextureStorage storage = TextureStorage::rgba16;
     PeerFilter filter = PeerFilter::usual;
+    PeerShader shader = PeerShader::usual;
     bool first = true;  ///< measure first frames too
     std::string pictures, glb, csv;
 };

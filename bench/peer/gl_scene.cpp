@@ -128,10 +128,10 @@ void set_lamps(unsigned program, const Scene& scene) {
 
 }  // namespace
 
-bool GlScene::make(const BenchScene& bench, float aspect, TextureStorage storage, GlScene& out, std::string& reason) {
+bool GlScene::make(const BenchScene& bench, float aspect, TextureStorage storage, PeerShader shader, GlScene& out, std::string& reason) {
     const Scene& scene = bench.scene;
     const Vec4f eye = bench.camera.world_from_camera.c[3];
-    const ShaderSources sources = shader_sources(scene, {eye.x, eye.y, eye.z});
+    const ShaderSources sources = shader_sources(scene, {eye.x, eye.y, eye.z}, shader == PeerShader::special);
     out.program_ = linked_program(sources.vertex, sources.fragment, reason);
     out.depth_program_ = linked_program(sources.vertex, sources.depth_fragment, reason);
     if (out.program_ == 0 || out.depth_program_ == 0) return false;

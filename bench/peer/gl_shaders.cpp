@@ -1,6 +1,7 @@
 #include "bench/peer/gl_shaders.hpp"
 
 #include "bench/peer/scenes.hpp"
+#include "halflit/environment.hpp"
 #include "shading/environment.hpp"
 #include "shading/model/reflection_tables.hpp"
 #include "shading/model/scalar.hpp"
@@ -8,6 +9,7 @@
 #include "shading/reflection_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace halflit::peer {
@@ -69,7 +71,7 @@ void add_light(vec3 direction, float attenuation, vec3 light, vec3 normal, vec3 
     diffuse += light * (t * sqrt(t) * attenuation);
     vec3 between = direction + to_eye;
     float cosine = max(dot(normal, between), 0.0) * inversesqrt(dot(between, between));
-    highlight += light * (max(n_dot_l, 0.0) * pow(cosine, EXPONENT) * attenuation);
+    highlight += light * (max(n_dot_l, 0.0) * POWER(cosine) * attenuation);
 }
 
 // The environment's maps lie one below the other; a row holds two times ROWS and one values.
@@ -125,6 +127,16 @@ void define(std::string& text, const char* name, const std::string& value) {
     text += " " + value + "\n";
 }
 
+/// A function that raises to a whole power by squares.
+std::string raised(int exponent) {
+    std::string text = "float raised(float x) {\n    float product = 1.0;\n";
+    for (; exponent > 0; exponent >>= 1) {
+        if (exponent & 1) text += "    product *= x;\n";
+        text += "    x *= x;\n";
+    }
+    return text + "    return product;\n}\n";
+}
+
 std::string series(const char* name, const shading::EnvironmentPlan& plan) {
     std::string text = std::string("const vec3 ") + name + "[9] = vec3[9](";
     for (std::size_t i = 0; i < 9; ++i)
@@ -157,7 +169,7 @@ std::string mirror_constants(float roughness) {
 
 }  // namespace
 
-ShaderSources shader_sources(const Scene& scene, Vec3f eye) {
+ShaderSources shader_sources(const Scene& scene, Vec3f eye, bool products) {
     static_assert(kEnvironmentBands == 3);
     const Material& material = scene.materials[0];
     const bool textured = material.textures[TextureSlot::base_color].used();
@@ -169,17 +181,19 @@ ShaderSources shader_sources(const Scene& scene, Vec3f eye) {
     if (textured) define(head, "TEXTURED", "1");
     define(head, "LAMPS", std::to_string(lamps));
     define(head, "WRAP", number(material.lobe.wrap));
-    define(head, "EXPONENT", number(2 * half_exponent));
+    const double exponent = 2 * half_exponent;
+    const bool is_whole = exponent == std::floor(exponent) && exponent < 1024;
+    if (products && is_whole) head += raised(static_cast<int>(exponent));
+    define(head, "POWER(x)", products && is_whole ? "raised(x)" : "pow(x, " + number(exponent) + ")");
     define(head, "NORMALIZATION", number(specular_normalization(half_exponent, false)));
     define(head, "BASE", vec3({material.base_color.x, material.base_color.y, material.base_color.z}));
     define(head, "DIELECTRIC", number(material.dielectric_reflectance));
     define(head, "LEAST_SQUARED", number(double{shading::kMinSourceRadius} * double{shading::kMinSourceRadius}));
     define(head, "EYE", vec3(eye));
     std::string suns;
-    for (const Light& light : scene.lights)
-        if (light.type == LightType::directional)
-            suns += "add_light(" + vec3(light.direction_ws * -1.0f) + ", 1.0, " + vec3(light.color_linear) +
-                    ", normal, to_eye, diffuse, highlight); ";
+    for (const Light& sun : environment_suns(*scene.environment))
+        suns += "add_light(" + vec3(sun.direction_ws * -1.0f) + ", 1.0, " + vec3(sun.color_linear) +
+                ", normal, to_eye, diffuse, highlight); ";
     define(head, "SUNS", suns);
     const sh::WrapLobe lobe{material.lobe.wrap, material.lobe.power, material.lobe.scale()};
     define(head, "LAST_LEVEL", number(shading::kReflectionLevels - 1));

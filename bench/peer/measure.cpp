@@ -37,7 +37,7 @@ struct Peer {
 
     bool make(const BenchScene& bench, const Subject& subject, const Limits& limits, std::string& reason) {
         context = MesaContext::create(reason);
-        return context != nullptr && GlScene::make(bench, aspect_of(limits), subject.storage, scene, reason) &&
+        return context != nullptr && GlScene::make(bench, aspect_of(limits), subject.storage, subject.shader, scene, reason) &&
                GlTarget::make(limits.width, limits.height, subject.samples, target, reason);
     }
     void draw(const Subject& subject) const {

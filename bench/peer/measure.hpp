@@ -23,6 +23,7 @@ struct Subject {
     bool depth_first = false;  ///< llvmpipe draws the depths before the colours
     TextureStorage storage = TextureStorage::rgba16;
     PeerFilter filter = PeerFilter::usual;
+    PeerShader shader = PeerShader::usual;
     std::string pictures;  ///< folder for both pictures; empty: none
 };
 
