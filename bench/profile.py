@@ -1,8 +1,10 @@
-"""Where the time of frames goes: the share of each stage, as a Markdown table, by the profiler perf.
+"""Where the time of frames goes: the share of each stage in percent, as a Markdown table, by the profiler perf.
 
-usage: profile.py PROGRAM MODEL.. [-- FLAGS]     FLAGS: those of 'halflit bench' (default: --size 512x512 --threads 1 --frames 200)
+usage: ./dev bench --profile MODEL.. [-- FLAGS]
+  FLAGS: those of 'halflit bench' (default: --size 512x512 --threads 1 --frames 200)
 
-A function belongs to the first stage in STAGES that names it; what none names is the rest, whose largest functions are listed.
+A function belongs to the first stage in STAGES that names it. What none names is the rest, whose largest functions are listed. The start of
+the program counts as well; many frames make it small. The last row is the least frame over the fragments that it shades.
 """
 
 import collections
@@ -29,50 +31,44 @@ STAGES = {
     "system (pages, memory)": r"\[k\]|mem(set|move|cpy)",
 }
 REST = "rest"
+USUAL_FLAGS = ["--size", "512x512", "--threads", "1", "--frames", "200"]
 
 
-def shares(program, model, flags, rest):
-    """Share of each stage, percent."""
+def output_of(command):
+    result = subprocess.run(command, capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.exit(f"{result.stderr}profile: {command[0]} failed")
+    return result.stdout
+
+
+def shares(bench, rest):
+    """Share of each stage in percent, and the frames' report."""
     with tempfile.TemporaryDirectory() as folder:
         data = f"{folder}/perf.data"
-        subprocess.run(["perf", "record", "-q", "-F", "4000", "-o", data, program, "bench", model, *flags], check=True, stdout=subprocess.DEVNULL)
-        report = subprocess.run(["perf", "report", "-i", data, "--no-children", "--stdio", "-s", "sym", "-g", "none"], check=True,
-                                capture_output=True, text=True).stdout
+        report = json.loads(output_of(["perf", "record", "-q", "-F", "4000", "-o", data, *bench, "--json"]))
+        functions = output_of(["perf", "report", "-i", data, "--no-children", "--stdio", "-s", "sym", "-g", "none"])
     found = collections.Counter()
-    for share, function in re.findall(r"^\s*([\d.]+)%\s+(.*\S)", report, re.M):
+    for share, function in re.findall(r"^\s*([\d.]+)%\s+(.*\S)", functions, re.M):
         stage = next((stage for stage, names in STAGES.items() if re.search(names, function)), REST)
         found[stage] += float(share)
         if stage == REST:
             rest[function] += float(share)
-    return found
-
-
-def nanoseconds_a_fragment(program, model, flags):
-    """Median frame of 'halflit bench' over the fragments that a picture of the same size shades."""
-    bench = subprocess.run([program, "bench", model, *flags], check=True, capture_output=True, text=True).stdout
-    median_ms = float(re.search(r"median\s+([\d.]+) ms", bench).group(1))
-    size = re.search(r"frames of (\d+x\d+)", bench).group(1)
-    with tempfile.TemporaryDirectory() as folder:
-        report = subprocess.run([program, "render", model, "--size", size, "-o", f"{folder}/p.png", "--report", "-"], check=True,
-                                capture_output=True, text=True).stdout
-    return 1e6 * median_ms / json.loads(report)["fragments_shaded"]
+    return found, report
 
 
 def main():
-    arguments = sys.argv[1:]
+    arguments = sys.argv[2:]
     cut = arguments.index("--") if "--" in arguments else len(arguments)
-    program, *models = arguments[:cut]
-    flags = arguments[cut + 1:] or ["--size", "512x512", "--threads", "1", "--frames", "200"]
-    if not models:
+    models, flags = arguments[:cut], arguments[cut + 1:] or USUAL_FLAGS
+    if not models or any(model.startswith("-") for model in models):
         sys.exit(__doc__)
     rest = collections.Counter()
-    columns = [shares(program, model, flags, rest) for model in models]
-    rows = [(stage, [f"{column[stage]:.0f}" for column in columns]) for stage in [*STAGES, REST]
-            if any(column[stage] >= 1 for column in columns)]
-    rows.append(("ns a fragment", [f"{nanoseconds_a_fragment(program, model, flags):.0f}" for model in models]))
+    columns = [shares([sys.argv[1], "bench", model, *flags], rest) for model in models]
     print("| | " + " | ".join(pathlib.Path(model).stem for model in models) + " |\n|---|" + "---:|" * len(models))
-    for name, cells in rows:
-        print(f"| {name} | " + " | ".join(cells) + " |")
+    for stage in [*STAGES, REST]:
+        if any(found[stage] >= 1 for found, _ in columns):
+            print(f"| {stage} | " + " | ".join(f"{found[stage]:.0f}" for found, _ in columns) + " |")
+    print("| ns a fragment | " + " | ".join(f"{1e6 * report['min_ms'] / report['fragments_shaded']:.0f}" for _, report in columns) + " |")
     print("\nrest: " + ", ".join(f"{name} {share / len(models):.1f}" for name, share in rest.most_common(6)), file=sys.stderr)
 
 

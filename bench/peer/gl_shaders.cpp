@@ -192,8 +192,8 @@ ShaderSources shader_sources(const Scene& scene, Vec3f eye, bool products) {
     define(head, "EYE", vec3(eye));
     std::string suns;
     for (const Light& sun : environment_suns(*scene.environment))
-        suns += "add_light(" + vec3(sun.direction_ws * -1.0f) + ", 1.0, " + vec3(sun.color_linear) +
-                ", normal, to_eye, diffuse, highlight); ";
+        suns +=
+            "add_light(" + vec3(sun.direction_ws * -1.0f) + ", 1.0, " + vec3(sun.color_linear) + ", normal, to_eye, diffuse, highlight); ";
     define(head, "SUNS", suns);
     const sh::WrapLobe lobe{material.lobe.wrap, material.lobe.power, material.lobe.scale()};
     define(head, "LAST_LEVEL", number(shading::kReflectionLevels - 1));

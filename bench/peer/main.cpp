@@ -85,7 +85,8 @@ std::vector<Subject> subjects_of(const Flags& flags) {
         for (const int threads : flags.threads)
             for (const std::string& scene : flags.scenes) {
                 subjects.push_back({scene, threads, samples, false, flags.storage, flags.filter, flags.shader, flags.pictures});
-                if (scene == "overdraw") subjects.push_back({scene, threads, samples, true, flags.storage, flags.filter, flags.shader, flags.pictures});
+                if (scene == "overdraw")
+                    subjects.push_back({scene, threads, samples, true, flags.storage, flags.filter, flags.shader, flags.pictures});
             }
     return subjects;
 }

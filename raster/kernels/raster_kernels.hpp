@@ -102,7 +102,7 @@ struct VertexRecordArgs {
     float world_from_object[16];
     float normal_from_object[12];  ///< three columns of four, the fourth entry unused
     float tangent_sign;            ///< -1 if the transform mirrors, else +1
-    float* records;                ///< record of vertex 0
+    float* records;                ///< record 0
     int stride;                    ///< floats per record: 4 * number of slots
 };
 

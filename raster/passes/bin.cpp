@@ -1,9 +1,9 @@
 // The bin pass: triangle set-up and the tiles' triangle lists. Drops back faces, triangles without area, and triangles that touch no pixel
 // of the region. Clips the few that cross the near plane or leave the guard band. Each tile's list is in submission order.
 #include "raster/passes/clip.hpp"
-#include "raster/passes/keep_vertices.hpp"
 #include "raster/passes/quads.hpp"
 #include "raster/passes/tile_grid.hpp"
+#include "raster/passes/used_vertices.hpp"
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
 
@@ -22,8 +22,8 @@ struct BinInput {
     const ScreenVertex* screen;
     const std::uint8_t* outcodes;
     std::uint8_t* groups_drawn;
-    bool numbered;  ///< keep each record's submission number
-    bool kept;      ///< keep the vertices alone that triangles use
+    bool numbered;   ///< keep each record's submission number
+    bool only_used;  ///< keep only the vertices that triangles use
     const RasterKernels& kernels;
     StopSignal& stop;
 };
@@ -46,14 +46,14 @@ public:
         chunk_.listed = true;
         chunk_.not_finite = 0;
         chunk_.numbers.clear();
-        chunk_.kept = {};
+        chunk_.used = {};
         chunk_.material = chunk_.runs.empty() ? -1 : in_.draws[chunk_.runs[0].draw].material;
         for (const TriangleRun& run : chunk_.runs) {
             if (in_.draws[run.draw].material != chunk_.material) chunk_.material = -1;
             add_triangles(run);
         }
         if (chunk_.listed) sort_by_tile();
-        if (in_.kept) keep_vertices(chunk_, in_.draws, in_.screen);
+        if (in_.only_used) copy_used_vertices(chunk_, in_.draws, in_.screen);
         count_memory();
     }
 
@@ -302,20 +302,23 @@ private:
 }  // namespace
 
 void ViewGeometry::bin(const Batch& batch, const RasterKernels& kernels, Executor& executor) {
-    const BinInput input{*scene_,   view_,     draws_,  screen_.data(), outcodes_.data(), groups_drawn_.data(),
-                         numbered_, is_kept(), kernels, executor.stop()};
+    const BinInput input{
+        *scene_, view_,          draws_, screen_.data(), outcodes_.data(), groups_drawn_.data(), numbered_, has_only_used_vertices(),
+        kernels, executor.stop()};
     executor.run(static_cast<int>(batch.end_chunk - batch.first_chunk),
                  [&](int i) { ChunkBuilder(input, *chunks_[batch.first_chunk + static_cast<std::size_t>(i)]).build(); });
 }
 
-void ViewGeometry::list_sources() {
+Result<void> ViewGeometry::list_sources() {
     std::int64_t most = 0;
     for (const std::unique_ptr<Chunk>& chunk : chunks()) most = std::max(most, static_cast<std::int64_t>(chunk->records.size()));
     local_bits_ = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
+    if (local_bits_ + std::bit_width(chunk_count_) > 32) return fail(ErrorCode::limit, "triangles in view cannot be numbered");
     sources_.clear();
     for (std::size_t i = 0; i < chunk_count_; ++i)
-        sources_.push_back({chunks_[i]->records.data(), is_kept() ? kept_screen_.data() : screen_.data(), chunks_[i]->clip_screen.data(),
-                            static_cast<std::uint32_t>(i << local_bits_)});
+        sources_.push_back({chunks_[i]->records.data(), has_only_used_vertices() ? used_screen_.data() : screen_.data(),
+                            chunks_[i]->clip_screen.data(), static_cast<std::uint32_t>(i << local_bits_)});
+    return {};
 }
 
 std::span<const std::uint32_t> ViewGeometry::tile_list(std::size_t chunk, int tile, std::vector<std::uint32_t>& scratch) const {

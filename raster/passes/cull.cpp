@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::size_t kInstancesPerTask = 1024;
 constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< clusters in a chunk; chunks in a view
-/// Views of more vertices are made in batches of about so many, 17 bytes each.
+/// Target number of vertices of a batch; each takes 17 bytes. Smaller views are made at once.
 constexpr std::int64_t kMostVerticesAtOnce = std::int64_t{1} << 20;
+constexpr std::int64_t kLeastChunksOfBatch = 8;
 constexpr std::int64_t kMostTileLists = 1 << 22;  ///< chunks times tiles of a view, for four chunks or more; an empty list takes 4 bytes
 
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces, Topology topology) {
@@ -145,7 +146,9 @@ void ViewGeometry::list_draws(Executor& executor) {
 
 /// Chunks of about as many clusters each. They end where a draw does, if one does nearby.
 void ViewGeometry::divide_into_chunks() {
-    const std::int64_t most = std::clamp<std::int64_t>(kMostTileLists / std::max(view_.tile_count(), 1), 4, kMostChunks);
+    // Of a batch there are some chunks, so that several threads have work.
+    const std::int64_t usual = std::max(kMostChunks, kLeastChunksOfBatch * (vertex_count_ / kMostVerticesAtOnce));
+    const std::int64_t most = std::clamp<std::int64_t>(kMostTileLists / std::max(view_.tile_count(), 1), 4, usual);
     const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + most - 1) / most);
     chunk_count_ = 0;
     for (std::int64_t first = 0, aim = size; first < cluster_count_; aim += size) {
@@ -174,7 +177,8 @@ void ViewGeometry::divide_into_batches() {
         const Draw& last = draws_[draw_of_cluster(draws_, chunk.end_cluster - 1)];
         const auto base = [&](std::size_t draw) { return draws_[draw].vertex_base / 4 * 4; };
         const std::int64_t end_vertex = last.vertex_base + last.view_vertex_count();
-        const bool is_cut = chunk.first_cluster == draws_[first].cluster_base && batches_.back().end_chunk > batches_.back().first_chunk &&
+        const bool is_cut = chunk.first_cluster == draws_[first].cluster_base &&
+                            batches_.back().end_chunk >= batches_.back().first_chunk + 4 &&
                             end_vertex - base(batches_.back().first_draw) > kMostVerticesAtOnce;
         if (is_cut) batches_.push_back({first, first, c, c, 0});
         Batch& batch = batches_.back();
@@ -191,8 +195,8 @@ void ViewGeometry::divide_into_batches() {
 
 void ViewGeometry::cull_clusters(Executor& executor) {
     const auto groups = static_cast<std::size_t>(group_count_);
-    std::memset(groups_seen_.reserve(groups + 1), 0, groups + 1);
-    std::memset(groups_drawn_.reserve(groups + 1), 0, groups + 1);
+    std::memset(groups_seen_.reserve(groups + 1, executor.stop()), 0, groups + 1);
+    std::memset(groups_drawn_.reserve(groups + 1, executor.stop()), 0, groups + 1);
     one_material_ = draws_.empty() ? -1 : draws_[0].material;
     for (const Draw& draw : draws_) one_material_ = draw.material == one_material_ ? one_material_ : -1;
     executor.run(static_cast<int>(chunk_count_), [&](int i) {

@@ -35,7 +35,8 @@ private:
         unsigned common = 0, common_of_b = 0;  // bit k: corner k is one of the other triangle's
         for (unsigned k = 0; k < 3; ++k)
             for (unsigned l = 0; l < 3; ++l) {
-                const auto same = static_cast<unsigned>(of_a.vertex[k] == of_b.vertex[l]);
+                const auto same =
+                    static_cast<unsigned>(geometry_.corner_of_draw(of_a.vertex[k]) == geometry_.corner_of_draw(of_b.vertex[l]));
                 common |= same << k, common_of_b |= same << l;
             }
         if (common == 0) return pair;

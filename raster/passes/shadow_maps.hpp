@@ -28,10 +28,11 @@ private:
     Result<void> draw_face(const PreparedData& scene, const FramePlan& plan, const ShadowView& face, float* texels,
                            const RasterKernels& raster, const shading::ShadeKernels& shade, Executor& executor);
 
-    /// What the faces of maps are drawn from, one after the other.
+    /// Geometry of the face that is drawn.
     struct Workspace {
         ViewGeometry geometry;
         VertexRecords records;
+        std::int64_t most_vertices = 0;  ///< of all faces so far
     };
 
     Drawn drawn_;

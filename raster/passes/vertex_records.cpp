@@ -75,12 +75,15 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
             VertexRecordArgs args{};
             for (; group < draw_end; ++group) {
                 if (strides_[d] == 0 || !geometry.group_is_drawn(group)) continue;
-                if (args.records == nullptr)
+                if (args.records == nullptr) {
                     args = record_args(*draw, geometry.scene().source_mesh(draw->mesh),
                                        geometry.scene().scene().instances[draw->instance].world_from_object,
                                        slots_[static_cast<std::size_t>(draw->material)], records + record_bases_[d], strides_[d]);
-                if (geometry.is_kept())
-                    args.vertices = geometry.mesh_vertices() + draw->vertex_base, args.vertex_shift = draw->vertex_shift();
+                    if (geometry.has_only_used_vertices()) {
+                        args.vertices = geometry.mesh_vertices() + draw->vertex_base;
+                        args.vertex_shift = draw->vertex_shift();
+                    }
+                }
                 args.begin = (group - draw->group_base) * kVertexGroup;
                 args.end = std::min(args.begin + kVertexGroup, draw->record_count);
                 kernels.vertex_records(args);

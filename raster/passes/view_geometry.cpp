@@ -34,36 +34,37 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     divide_into_batches();
     cull_clusters(executor);
     times_ms_.cull = watch.lap();
-    for (const Batch& batch : batches_) {
+    for (const Batch& batch : batches_)
         if (batch.vertex_count >= kMostVertices) return fail_too_many_vertices();
+    for (const Batch& batch : batches_) {
         transform(batch, kernels, executor);
         times_ms_.transform += watch.lap();
         bin(batch, kernels, executor);
         times_ms_.bin += watch.lap();
     }
-    if (is_kept())
-        if (auto ok = number_kept_vertices(executor); !ok) return ok;
-    list_sources();
+    if (has_only_used_vertices())
+        if (auto ok = number_used_vertices(executor); !ok) return ok;
+    if (auto ok = list_sources(); !ok) return ok;
     times_ms_.bin += watch.lap();
     revision_ = revision;
     return {};
 }
 
-/// Gives the kept vertices of all chunks one numbering, that of the view, and moves them to its arrays.
-Result<void> ViewGeometry::number_kept_vertices(Executor& executor) {
+/// Gives the used vertices of all chunks one numbering, that of the view, and moves them to its arrays.
+Result<void> ViewGeometry::number_used_vertices(Executor& executor) {
     std::vector<std::int64_t> bases;
     for (Draw& draw : draws_) draw.record_count = -1;  // has no vertex yet
     std::int64_t count = 0;
     for (std::size_t c = 0; c < chunk_count_; ++c) {
-        const KeptVertices& kept = chunks_[c]->kept;
+        const UsedVertices& used = chunks_[c]->used;
         bases.push_back(count);
-        for (const KeptVertices::Part& part : kept.parts) {
+        for (const UsedVertices::Part& part : used.parts) {
             Draw& draw = draws_[part.draw];
-            if (draw.record_count >= 0) continue;  // it goes on from the last chunk, whose last vertices are its own
+            if (draw.record_count >= 0) continue;  // continues from the previous chunk, which ends with its vertices
             draw.record_count = 0;
             draw.vertex_base = count + part.first;
         }
-        count += static_cast<std::int64_t>(kept.screen.size());
+        count += static_cast<std::int64_t>(used.screen.size());
     }
     if (count >= kMostVertices) return fail_too_many_vertices();
     vertex_count_ = count;
@@ -78,7 +79,7 @@ Result<void> ViewGeometry::number_kept_vertices(Executor& executor) {
         draw.group_base = group_count_;
         group_count_ += draw.group_count();
     }
-    ScreenVertex* const screen = kept_screen_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
+    ScreenVertex* const screen = used_screen_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
     std::uint32_t* const mesh_vertices = mesh_vertices_.reserve(static_cast<std::size_t>(vertex_count_), executor.stop());
     executor.run(static_cast<int>(chunk_count_), [&](int i) {
         Chunk& chunk = *chunks_[static_cast<std::size_t>(i)];
@@ -88,9 +89,9 @@ Result<void> ViewGeometry::number_kept_vertices(Executor& executor) {
         };
         for (TriangleRecord& record : chunk.records) std::for_each(std::begin(record.vertex), std::end(record.vertex), renumber);
         for (ClipVertex& vertex : chunk.clip_vertices) std::for_each(std::begin(vertex.parent), std::end(vertex.parent), renumber);
-        std::copy(chunk.kept.screen.begin(), chunk.kept.screen.end(), screen + base);
-        std::copy(chunk.kept.mesh_vertex.begin(), chunk.kept.mesh_vertex.end(), mesh_vertices + base);
-        chunk.kept = {};
+        std::copy(chunk.used.screen.begin(), chunk.used.screen.end(), screen + base);
+        std::copy(chunk.used.mesh_vertex.begin(), chunk.used.mesh_vertex.end(), mesh_vertices + base);
+        chunk.used = {};
         chunk.memory.hold(executor.stop(), chunk.bytes());
     });
     return {};
@@ -99,7 +100,7 @@ Result<void> ViewGeometry::number_kept_vertices(Executor& executor) {
 std::size_t Chunk::bytes() const {
     const auto size = [](const auto& list) { return list.capacity() * sizeof list[0]; };
     return size(runs) + size(records) + size(numbers) + size(clip_screen) + size(clip_vertices) + size(pairs) + size(tile_begin) +
-           size(tile_list) + size(kept.parts) + size(kept.screen) + size(kept.mesh_vertex);
+           size(tile_list) + size(used.parts) + size(used.screen) + size(used.mesh_vertex);
 }
 
 void Chunk::drop_lists() {

@@ -1,11 +1,11 @@
 // The geometry of one view: the instances and clusters that it may see, their vertices in its window, and each tile's triangles. Made by
 // three passes, which read a PreparedData and a View and do not depend on lights:
 //     cull -> transform -> bin (set-up and tile lists)
+// The geometry is kept from frame to frame: the passes do not run again if neither scene nor view changed, and a frame like the last one
+// allocates nothing.
 //
-// Views of many vertices are transformed and binned in batches, from draw to draw, and keep the vertices alone that their triangles use
-// (keep_vertices.hpp): an instance takes 150 bytes of a file and could take megabytes of memory.
-// It is kept from frame to frame: the passes do not run again if neither scene nor view changed, and a frame like the last one allocates
-// nothing.
+// Views of many vertices are transformed and binned in batches, from draw to draw, and keep only the vertices that their triangles use
+// (used_vertices.hpp): an instance takes some bytes of a file and could take megabytes of memory.
 #pragma once
 
 #include "halflit/material.hpp"
@@ -37,7 +37,7 @@ struct Draw {
     Topology topology = Topology::triangles;
 
     std::int64_t vertex_count = 0;  ///< of the mesh
-    std::int64_t record_count = 0;  ///< vertices of the mesh that have a number in the view: all of them, or those that are kept
+    std::int64_t record_count = 0;  ///< vertices of the mesh that have a number in the view: all of them, or those that triangles use
     [[nodiscard]] bool quads() const { return topology != Topology::triangles; }
     /// Vertex of the mesh from one of the view's: their number >> this. A quad has four of the view's vertices and one or two of the
     /// mesh's.
@@ -60,7 +60,7 @@ struct ClipVertex {
 };
 
 /// Vertices that the triangles of a chunk use, in the order of draws. Their number is a multiple of four.
-struct KeptVertices {
+struct UsedVertices {
     struct Part {
         std::uint32_t draw, first;  ///< number of its first vertex
     };
@@ -69,7 +69,7 @@ struct KeptVertices {
     std::vector<std::uint32_t> mesh_vertex;  ///< of each
 };
 
-/// Consecutive chunks, and draws that no other batch has: their vertices are transformed and binned before those of the next batch.
+/// Consecutive chunks and their draws. No draw is in two batches. A batch is transformed and binned before the next one.
 struct Batch {
     std::size_t first_draw = 0, end_draw = 0, first_chunk = 0, end_chunk = 0;
     std::int64_t vertex_count = 0;
@@ -89,7 +89,7 @@ struct Chunk {
     int material = -1;             ///< of all its triangles; -1: they have several
     bool listed = true;            ///< false: too many entries, so there are no lists
     std::uint64_t not_finite = 0;  ///< triangles dropped for a NaN or infinite vertex
-    KeptVertices kept;             ///< in batches, until all of them are made
+    UsedVertices used;             ///< only while a view is made in batches
     MemoryShare memory;
 
     [[nodiscard]] std::size_t bytes() const;  ///< memory of all lists
@@ -120,7 +120,7 @@ public:
     [[nodiscard]] const View& view() const { return view_; }
     [[nodiscard]] const PreparedData& scene() const { return *scene_; }
     [[nodiscard]] std::span<const Draw> draws() const { return draws_; }
-    /// Vertices of all draws, seen or not.
+    /// Vertices that have a number: of all draws, seen or not, or those that are used.
     [[nodiscard]] std::int64_t vertex_count() const { return vertex_count_; }
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
     /// True if some draw's mesh has fewer than 1.5 vertices a triangle.
@@ -152,11 +152,15 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> tile_list(std::size_t chunk, int tile, std::vector<std::uint32_t>& scratch) const;
 
     /// True if a drawn triangle reads the group of kVertexGroup records.
-    [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return is_kept() || groups_drawn_.data()[group] != 0; }
-    /// True if the view has the vertices alone that triangles use.
-    [[nodiscard]] bool is_kept() const { return batches_.size() > 1; }
-    /// The mesh's vertex for each of the view's; only if is_kept().
+    [[nodiscard]] bool group_is_drawn(std::int64_t group) const { return has_only_used_vertices() || groups_drawn_.data()[group] != 0; }
+    /// True if the view was made in batches and has only the vertices that its triangles use. Chunks have copies of their own then.
+    [[nodiscard]] bool has_only_used_vertices() const { return batches_.size() > 1; }
+    /// The mesh's vertex for each of the view's; only if has_only_used_vertices().
     [[nodiscard]] const std::uint32_t* mesh_vertices() const { return mesh_vertices_.data(); }
+    /// Equal for corners of triangles of one draw that are the same vertex. Those that clipping made are numbered by chunk.
+    [[nodiscard]] std::uint32_t corner_of_draw(std::uint32_t vertex) const {
+        return has_only_used_vertices() && vertex < kClipVertex ? mesh_vertices_.data()[vertex] : vertex;
+    }
     [[nodiscard]] std::uint64_t triangles_drawn() const;
     [[nodiscard]] std::uint64_t triangles_not_finite() const;
 
@@ -167,8 +171,8 @@ private:
     void cull_clusters(Executor& executor);
     void transform(const Batch& batch, const RasterKernels& kernels, Executor& executor);
     void bin(const Batch& batch, const RasterKernels& kernels, Executor& executor);
-    Result<void> number_kept_vertices(Executor& executor);
-    void list_sources();
+    Result<void> number_used_vertices(Executor& executor);
+    Result<void> list_sources();
 
     const PreparedData* scene_ = nullptr;
     SceneRevision revision_;
@@ -186,7 +190,7 @@ private:
     RawBuffer<ScreenVertex> screen_;  ///< of the view, or of one batch at a time
     RawBuffer<std::uint8_t> outcodes_;
     std::vector<Batch> batches_;
-    RawBuffer<ScreenVertex> kept_screen_;
+    RawBuffer<ScreenVertex> used_screen_;
     RawBuffer<std::uint32_t> mesh_vertices_;
     std::vector<std::unique_ptr<Chunk>> chunks_;
     std::size_t chunk_count_ = 0;

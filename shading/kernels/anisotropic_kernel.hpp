@@ -48,7 +48,7 @@ struct ProbeTaps {
 };
 
 /// Fetches the texels of one lane ahead, from two levels. All lanes are fetched before one is used: frames with large textures wait longer
-/// for texels than they compute with them. A magnified texture has its texels in the caches.
+/// for texels than they compute with them.
 HALFLIT_INLINE void fetch_ahead(const std::uint16_t* data, const PlaceTaps& taps, int lane) {
     for (const LevelTaps* level : {&taps.near, &taps.far})
         for (const int corner : {0, 2}) prefetch(data + 4 * static_cast<std::int64_t>(level->index[corner][lane]));
@@ -78,7 +78,7 @@ HALFLIT_INLINE void fetch_ahead(const std::uint16_t* data, const PlaceTaps& taps
         probe(2 * i, F(static_cast<float>(i)));
         out.pairs = i;
     }
-    if (!out.at[0].two_levels) return;
+    if (!out.at[0].two_levels) return;  // magnified: many lanes read the same texels, which are in the caches
     for (int t = 0; t < texture.ahead_count; ++t)
         for (int l = 0; l < kWidth; ++l) {
             fetch_ahead(texture.ahead[t], out.at[0], l);

@@ -19,7 +19,7 @@ struct TexturePlan {
     std::int32_t width[kMaxTextureLevels], height[kMaxTextureLevels], offset[kMaxTextureLevels];
     float row_u[3], row_v[3];  ///< texture transform
     std::int32_t uv_set = 0;
-    std::int32_t taps = 0;  ///< equal for textures of a material that are read at the same places; > 0
+    std::int32_t taps = 0;  ///< equal for textures of a material that are read at the same places; 0: not used
     /// Texels that anisotropic filters fetch ahead: of this texture and those after it with the same taps, if they are large.
     const std::uint16_t* ahead[kTextureSlots];
     std::int32_t ahead_count = 0;

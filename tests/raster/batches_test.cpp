@@ -1,4 +1,6 @@
-// Views of many vertices are transformed and binned in batches and keep the vertices alone that their triangles use. No bit may change.
+// Views of many vertices are transformed and binned in batches and keep only the vertices that their triangles use. No bit may change.
+#include "raster/frame_plan.hpp"
+#include "raster/passes/view_geometry.hpp"
 #include "tests/raster/metamorphic_shots.hpp"
 
 #include "tests/support/catch.hpp"
@@ -51,12 +53,24 @@ void add_vertices(Scene& scene) {
     scene.instances = std::move(instances);
 }
 
+/// True if the scene's view is made in batches.
+bool is_in_batches(const Shot& shot) {
+    const auto prepared = PreparedScene::make(shot.scene);
+    REQUIRE(prepared);
+    Executor executor;
+    executor.configure({.threads = 1});
+    ViewGeometry geometry;
+    const View view = make_view(shot.camera, kViewWidth, kViewHeight, {0, 0, kViewWidth, kViewHeight}, 64, shot.settings.samples);
+    REQUIRE(geometry.make(prepared->data(), view, raster_kernels(Isa::scalar), executor));
+    return geometry.has_only_used_vertices();
+}
+
 }  // namespace
 
 TEST_CASE("batches: a view of many vertices has the pixels of the same view without them", "[raster][batches]") {
     const auto isas = halflit::test::available_isas();
-    std::uint64_t visible = 0;
     constexpr std::uint64_t kScenes = 30;
+    std::uint64_t visible = 0, in_batches = 0;
     for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
         Random random(seed + 77);
         Shot shot = any_shot(seed);
@@ -64,12 +78,34 @@ TEST_CASE("batches: a view of many vertices has the pixels of the same view with
         shot.settings.shading.max_error_codes = 0;  // a budget's lights depend on where vertices are
         const Isa isa = isas[static_cast<std::size_t>(random.index(static_cast<int>(isas.size())))];
         const Execution execution = execution_of(1 + static_cast<int>(seed % 2), 64, isa);
-        const Pixels few = draw(shot, execution);
-        add_vertices(shot.scene);
-        const Pixels many = draw(shot, execution);
+        Renderer renderer;
+        const Pixels few = draw(shot, renderer, execution);
+        Shot larger = shot;
+        add_vertices(larger.scene);
         INFO("seed " << seed << ", " << isa_name(isa));
-        CHECK(differing(few, many) == 0);
+        in_batches += is_in_batches(larger) ? 1 : 0;  // unless the camera does not see that place
+        CHECK(differing(few, draw(larger, renderer, execution)) == 0);
+        CHECK(differing(few, draw(shot, renderer, execution)) == 0);
         visible += few.visible;
     }
     CHECK(visible > kScenes * kViewWidth * kViewHeight / 5);
+    CHECK(in_batches >= kScenes * 2 / 3);
+}
+
+TEST_CASE("batches: triangles of a smooth mesh are joined across the parts that have copies of its vertices", "[raster][batches]") {
+    Shot shot;
+    shot.scene.materials.resize(1);
+    shot.scene.meshes.push_back(make_sphere_of(1.0f, 200'000));
+    shot.scene.meshes[0].material = 0;
+    shot.scene.instances.push_back({0, {}});
+    shot.scene.lights.push_back({.direction_ws = normalize_or({-1, -1, -1}, {0, -1, 0})});
+    shot.camera = frame_scene(shot.scene, static_cast<float>(kViewWidth) / kViewHeight, {});
+    shot.settings.samples = 4;
+    const Pixels few = draw(shot);
+    CHECK_FALSE(is_in_batches(shot));
+    add_vertices(shot.scene);
+    CHECK(is_in_batches(shot));
+    const Pixels many = draw(shot);
+    CHECK(differing(few, many) == 0);
+    CHECK(few.fragments == many.fragments);
 }

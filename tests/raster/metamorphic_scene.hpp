@@ -27,7 +27,7 @@ struct Pixels {
     std::vector<std::uint8_t> rgba8 = std::vector<std::uint8_t>(4 * kViewWidth * kViewHeight, 0xCD);
     std::vector<float> linear = std::vector<float>(4 * kViewWidth * kViewHeight, -123.0f);
     std::vector<float> depth = std::vector<float>(kViewWidth * kViewHeight, -5.0f);
-    std::uint64_t visible = 0;
+    std::uint64_t visible = 0, fragments = 0;
 
     [[nodiscard]] Target target() {
         return {.width = kViewWidth, .height = kViewHeight, .pixels = rgba8.data(), .linear = linear.data(), .depth = depth.data()};
@@ -39,6 +39,7 @@ inline Pixels draw(const Shot& shot, Renderer& renderer, const Execution& execut
     const auto report = renderer.render(shot.scene, shot.camera, shot.settings, pixels.target(), execution);
     if (!report) throw std::runtime_error(report.error().message);
     pixels.visible = report->pixels_visible;
+    pixels.fragments = report->fragments_shaded;
     return pixels;
 }
 

@@ -120,7 +120,7 @@ Subject default_picture(const char* name, Mesh mesh, bool textured = false) {
     return subject;
 }
 
-/// Boxes apart from each other, of flat faces.
+/// Boxes with flat faces, some of them inside each other.
 Mesh heap() {
     Random random(9);
     Mesh mesh;

@@ -1,4 +1,4 @@
-#include "raster/passes/keep_vertices.hpp"
+#include "raster/passes/used_vertices.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -43,17 +43,17 @@ private:
     bool is_dense_ = false;
 };
 
-void pad_to_four(KeptVertices& kept) {
-    while (kept.screen.size() % 4 != 0) {
-        kept.screen.emplace_back();
-        kept.mesh_vertex.push_back(0);
+void pad_to_four(UsedVertices& used) {
+    while (used.screen.size() % 4 != 0) {
+        used.screen.emplace_back();
+        used.mesh_vertex.push_back(0);
     }
 }
 
 }  // namespace
 
-void keep_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenVertex* screen) {
-    KeptVertices& kept = chunk.kept;
+void copy_used_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenVertex* screen) {
+    UsedVertices& used = chunk.used;
     NumberSet units;  // vertices, or quads of four
     auto clip = chunk.clip_vertices.begin();
     for (auto first = chunk.records.begin(); first != chunk.records.end();) {
@@ -73,13 +73,13 @@ void keep_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenVertex
         units.clear();
         for_each_vertex([&](std::uint32_t v) { units.add((v - base) >> shift); });
         units.sort();
-        if (draw.quads()) pad_to_four(kept);
-        const auto start = static_cast<std::uint32_t>(kept.screen.size());
-        kept.parts.push_back({number, start});
+        if (draw.quads()) pad_to_four(used);
+        const auto start = static_cast<std::uint32_t>(used.screen.size());
+        used.parts.push_back({number, start});
         for (const std::uint32_t unit : units.numbers())
             for (std::uint32_t v = unit << shift; v < (unit + 1) << shift; ++v) {
-                kept.screen.push_back(screen[base + v]);
-                kept.mesh_vertex.push_back(v >> draw.vertex_shift());
+                used.screen.push_back(screen[base + v]);
+                used.mesh_vertex.push_back(v >> draw.vertex_shift());
             }
         for_each_vertex([&](std::uint32_t& v) {
             const std::uint32_t old = v - base, unit = old >> shift;
@@ -87,7 +87,7 @@ void keep_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenVertex
         });
         first = last, clip = clip_last;
     }
-    pad_to_four(kept);
+    pad_to_four(used);
 }
 
 }  // namespace halflit::raster
