@@ -84,9 +84,10 @@ std::vector<Subject> subjects_of(const Flags& flags) {
     for (const int samples : flags.samples)
         for (const int threads : flags.threads)
             for (const std::string& scene : flags.scenes) {
-                subjects.push_back({scene, threads, samples, false, flags.storage, flags.filter, flags.shader, flags.pictures});
-                if (scene == "overdraw")
-                    subjects.push_back({scene, threads, samples, true, flags.storage, flags.filter, flags.shader, flags.pictures});
+                Subject subject{scene, threads, samples, false, flags.storage, flags.filter, flags.shader, flags.pictures};
+                subjects.push_back(subject);
+                subject.depth_first = true;
+                if (scene == "overdraw") subjects.push_back(subject);
             }
     return subjects;
 }

@@ -314,10 +314,11 @@ Result<void> ViewGeometry::list_sources() {
     for (const std::unique_ptr<Chunk>& chunk : chunks()) most = std::max(most, static_cast<std::int64_t>(chunk->records.size()));
     local_bits_ = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
     if (local_bits_ + std::bit_width(chunk_count_) > 32) return fail(ErrorCode::limit, "triangles in view cannot be numbered");
+    const ScreenVertex* const vertices = has_only_used_vertices() ? used_screen_.data() : screen_.data();
     sources_.clear();
     for (std::size_t i = 0; i < chunk_count_; ++i)
-        sources_.push_back({chunks_[i]->records.data(), has_only_used_vertices() ? used_screen_.data() : screen_.data(),
-                            chunks_[i]->clip_screen.data(), static_cast<std::uint32_t>(i << local_bits_)});
+        sources_.push_back(
+            {chunks_[i]->records.data(), vertices, chunks_[i]->clip_screen.data(), static_cast<std::uint32_t>(i << local_bits_)});
     return {};
 }
 

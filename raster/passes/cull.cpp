@@ -15,7 +15,7 @@ constexpr std::size_t kInstancesPerTask = 1024;
 constexpr std::int64_t kLeastClusters = 16, kMostChunks = 128;  ///< clusters in a chunk; chunks in a view
 /// Target number of vertices of a batch; each takes 17 bytes. Smaller views are made at once.
 constexpr std::int64_t kMostVerticesAtOnce = std::int64_t{1} << 20;
-constexpr std::int64_t kLeastChunksOfBatch = 8;
+constexpr std::size_t kChunksOfBatch = 8, kLeastChunksOfBatch = 4;  ///< so that several threads have work
 constexpr std::int64_t kMostTileLists = 1 << 22;  ///< chunks times tiles of a view, for four chunks or more; an empty list takes 4 bytes
 
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces, Topology topology) {
@@ -146,8 +146,7 @@ void ViewGeometry::list_draws(Executor& executor) {
 
 /// Chunks of about as many clusters each. They end where a draw does, if one does nearby.
 void ViewGeometry::divide_into_chunks() {
-    // Of a batch there are some chunks, so that several threads have work.
-    const std::int64_t usual = std::max(kMostChunks, kLeastChunksOfBatch * (vertex_count_ / kMostVerticesAtOnce));
+    const std::int64_t usual = std::max(kMostChunks, std::int64_t{kChunksOfBatch} * (vertex_count_ / kMostVerticesAtOnce));
     const std::int64_t most = std::clamp<std::int64_t>(kMostTileLists / std::max(view_.tile_count(), 1), 4, usual);
     const std::int64_t size = std::max(kLeastClusters, (cluster_count_ + most - 1) / most);
     chunk_count_ = 0;
@@ -168,27 +167,27 @@ void ViewGeometry::divide_into_chunks() {
     }
 }
 
-/// One batch, or several if there are many vertices. Then draws' vertices are numbered within their batch.
+/// One batch, or several if there are many vertices; none without draws. Draws' vertices are numbered within their batch.
 void ViewGeometry::divide_into_batches() {
-    batches_.assign(1, {});
+    // A multiple of four, as lines and points need it.
+    const auto first_vertex = [&](std::size_t draw) { return draws_[draw].vertex_base / 4 * 4; };
+    batches_.clear();
     for (std::size_t c = 0; c < chunk_count_; ++c) {
         const Chunk& chunk = *chunks_[c];
         const std::size_t first = draw_of_cluster(draws_, chunk.first_cluster);
         const Draw& last = draws_[draw_of_cluster(draws_, chunk.end_cluster - 1)];
-        const auto base = [&](std::size_t draw) { return draws_[draw].vertex_base / 4 * 4; };
         const std::int64_t end_vertex = last.vertex_base + last.view_vertex_count();
-        const bool is_cut = chunk.first_cluster == draws_[first].cluster_base &&
-                            batches_.back().end_chunk >= batches_.back().first_chunk + 4 &&
-                            end_vertex - base(batches_.back().first_draw) > kMostVerticesAtOnce;
-        if (is_cut) batches_.push_back({first, first, c, c, 0});
+        const bool is_first = batches_.empty() || (chunk.first_cluster == draws_[first].cluster_base &&
+                                                   c >= batches_.back().first_chunk + kLeastChunksOfBatch &&
+                                                   end_vertex - first_vertex(batches_.back().first_draw) > kMostVerticesAtOnce);
+        if (is_first) batches_.push_back({first, first, c, c, 0});
         Batch& batch = batches_.back();
         batch.end_chunk = c + 1;
         batch.end_draw = static_cast<std::size_t>(&last - draws_.data()) + 1;
-        batch.vertex_count = end_vertex - base(batch.first_draw);
+        batch.vertex_count = end_vertex - first_vertex(batch.first_draw);
     }
     for (const Batch& batch : batches_) {
-        if (batch.first_draw == batch.end_draw) continue;
-        const std::int64_t base = draws_[batch.first_draw].vertex_base / 4 * 4;
+        const std::int64_t base = first_vertex(batch.first_draw);
         for (std::size_t d = batch.first_draw; d < batch.end_draw; ++d) draws_[d].vertex_base -= base;
     }
 }

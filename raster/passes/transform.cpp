@@ -10,7 +10,6 @@ namespace halflit::raster {
 
 void ViewGeometry::transform(const Batch& batch, const RasterKernels& kernels, Executor& executor) {
     constexpr std::int64_t kGroupsPerTask = 64;
-    if (batch.first_draw == batch.end_draw) return;
     ScreenVertex* screen = screen_.reserve(static_cast<std::size_t>(batch.vertex_count), executor.stop());
     std::uint8_t* outcodes = outcodes_.reserve(static_cast<std::size_t>(batch.vertex_count), executor.stop());
     const Draw& last_draw = draws_[batch.end_draw - 1];

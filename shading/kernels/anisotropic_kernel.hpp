@@ -50,8 +50,11 @@ struct ProbeTaps {
 /// Fetches the texels of one lane ahead, from two levels. All lanes are fetched before one is used: frames with large textures wait longer
 /// for texels than they compute with them.
 HALFLIT_INLINE void fetch_ahead(const std::uint16_t* data, const PlaceTaps& taps, int lane) {
-    for (const LevelTaps* level : {&taps.near, &taps.far})
-        for (const int corner : {0, 2}) prefetch(data + 4 * static_cast<std::int64_t>(level->index[corner][lane]));
+    for (const LevelTaps* level : {&taps.near, &taps.far}) {
+        const TexelRows rows = rows_of(data, *level, lane);
+        prefetch(rows.upper);
+        prefetch(rows.lower);
+    }
 }
 
 /// Not inlined, as filter_texels.

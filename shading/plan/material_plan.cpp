@@ -42,12 +42,14 @@ constexpr std::size_t kLeastTexelsAhead = std::size_t{1} << 18;
 
 /// Lists for each texture what is fetched with it.
 void list_ahead(MaterialPlan& plan) {
-    for (TexturePlan& texture : plan.textures)
+    for (TexturePlan& texture : plan.textures) {
+        if (texture.taps == 0) continue;
         for (const TexturePlan* with = &texture; with != plan.textures.data() + plan.textures.size(); ++with) {
-            if (with->taps == 0 || with->taps != texture.taps || with->source->data().size() < 4 * kLeastTexelsAhead) continue;
+            if (with->taps != texture.taps || with->source->data().size() < 4 * kLeastTexelsAhead) continue;
             const std::uint16_t** const end = texture.ahead + texture.ahead_count;
             if (std::find(texture.ahead, end, with->data) == end) texture.ahead[texture.ahead_count++] = with->data;
         }
+    }
 }
 
 /// Where not metallic: F0 by channel, and the weight. Leaves the largest F0 in `dielectric`, which bounds go by.

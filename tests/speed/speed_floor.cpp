@@ -32,17 +32,23 @@ Camera camera_at(float distance) {
     return camera;
 }
 
-/// A scene with one mesh of one material, and a directional light.
+/// A scene with one mesh of one material.
+Scene scene_of(Mesh mesh, const Material& material) {
+    Scene scene;
+    scene.materials.push_back(material);
+    mesh.material = 0;
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back({0, {}});
+    return scene;
+}
+
+/// Such a scene under a directional light.
 Subject subject_of(const char* name, Mesh mesh, float distance) {
-    Subject subject{name, {}, camera_at(distance), {}};
     Material material;
     material.metallic = 0.0f;
     material.roughness = 0.5f;
     material.lobe = Lobe::sloan(0.5f);
-    subject.scene.materials.push_back(material);
-    mesh.material = 0;
-    subject.scene.meshes.push_back(std::move(mesh));
-    subject.scene.instances.push_back({0, {}});
+    Subject subject{name, scene_of(std::move(mesh), material), camera_at(distance), {}};
     Light light;
     light.direction_ws = normalize_or({-1, -1, -1}, {0, -1, 0});
     subject.scene.lights.push_back(light);
@@ -103,18 +109,14 @@ std::shared_ptr<const Environment> sky() {
 
 /// The picture of a file with this mesh, as the command line draws it without flags: view, studio, key light with a shadow, four samples.
 Subject default_picture(const char* name, Mesh mesh, bool textured = false) {
-    Subject subject{name, {}, {}, {}};
     Material material;
     material.metallic = textured ? 0.5f : 0.0f;
     material.roughness = textured ? 0.4f : 0.8f;
-    subject.scene.materials.push_back(material);
-    mesh.material = 0;
     if (textured) generate_tangents(mesh, 0);
-    subject.scene.meshes.push_back(std::move(mesh));
-    subject.scene.instances.push_back({0, {}});
+    Subject subject{name, scene_of(std::move(mesh), material), {}, {}};
     if (textured) add_textures(subject.scene);
     AutoSetup setup = auto_setup(subject.scene, kWidth, kHeight);
-    subject.scene.Lighting::operator=(std::move(setup.light));
+    static_cast<Lighting&>(subject.scene) = std::move(setup.light);
     subject.camera = setup.camera;
     subject.settings = setup.settings;
     return subject;
