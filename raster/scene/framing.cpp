@@ -10,12 +10,14 @@
 #include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace halflit {
 
 using namespace raster;
 namespace {
 
-constexpr double kFrameMargin = 0.08;    // share of the half picture that stays free on the tighter side
 constexpr double kMaxCoordinate = 1e36;  // bounds are clamped to this, so that the camera's position is a finite float
 
 struct Axes {
@@ -28,6 +30,8 @@ Axes orbit_axes(const ViewSettings& view) {
     const SinCos el = sin_cos(finite(view.elevation_deg) ? view.elevation_deg * (kPi / 180.0) : 0.0);
     return {{az.cos, 0.0, -az.sin}, {-el.sin * az.sin, el.cos, -el.sin * az.cos}, {az.sin * el.cos, el.sin, az.cos * el.cos}};
 }
+
+double usable_margin(double share) { return share > 0.0 ? share < 0.9 ? share : 0.9 : 0.0; }
 
 /// Box that is finite, not empty, and not smaller than the resolution of float coordinates at its position.
 struct Box {
@@ -61,8 +65,16 @@ struct Extent {
         if (y + tangent * z > low) low = y + tangent * z, at_low = {y, z};
         if (y - tangent * z < high) high = y - tangent * z, at_high = {y, z};
     }
+    /// All points (y, z) within a distance of (0, 0).
+    void add_ball(double radius) {
+        const double most = radius * std::sqrt(1.0 + tangent * tangent);
+        if (most > low) low = most;
+        if (-most < high) high = -most;
+    }
     /// Least distance from which all points lie within the tangent.
     [[nodiscard]] double distance() const { return (low - high) / (2.0 * tangent); }
+    /// The same for an eye at this place.
+    [[nodiscard]] double distance_from(double o) const { return larger(low - o, o - high) / tangent; }
     /// Place of an eye that has the two outermost points equally far from the view's middle, if the tangent is their angle's.
     [[nodiscard]] double middle() const { return 0.5 * (low + high); }
     /// That tangent, for an eye at distance d: a step of Newton's method to low - high = 2 tangent d.
@@ -90,8 +102,10 @@ public:
           origin_(origin),
           axes_(orbit_axes(view)),
           tan_y_(half_angle_tangent(usable_fov(static_cast<float>(view.fov_y_deg * (kPi / 180.0))))),
-          x_{tan_y_ * usable_aspect(aspect) * (1.0 - kFrameMargin)},
-          y_{tan_y_ * (1.0 - kFrameMargin)},
+          used_x_(1.0 - usable_margin(view.margin_x)),
+          used_y_(1.0 - usable_margin(view.margin_y)),
+          x_{tan_y_ * usable_aspect(aspect) * used_x_},
+          y_{tan_y_ * used_y_},
           aspect_(usable_aspect(aspect)) {}
 
     /// True if adding the point would change nothing.
@@ -109,8 +123,30 @@ public:
         if (view_.orthographic) wide_.add(x), tall_.add(y), back_ = back_ < z ? back_ : z;
     }
 
+    /// Adds all points within a distance of the origin.
+    void add_ball(double radius) {
+        for (Extent* const extent : {&x_, &y_}) extent->add_ball(radius);
+        front_ = larger(front_, radius);
+        if (view_.orthographic)
+            for (const double x : {-radius, radius}) wide_.add(x), tall_.add(x), back_ = back_ < x ? back_ : x;
+    }
+
     /// Sets the distance. radius: size of the set of points; keeps the camera off a set that is seen edge on.
     void choose_distance(double radius) { distance_ = larger(larger(x_.distance(), y_.distance()), front_ + 1e-3 * radius); }
+    /// Least distance of an eye before the origin.
+    [[nodiscard]] double distance_before_origin(double radius) const {
+        return larger(larger(x_.distance_from(0.0), y_.distance_from(0.0)), front_ + 1e-3 * radius);
+    }
+    /// The same for half the height of a picture by parallel rays.
+    [[nodiscard]] double half_height_before_origin() const {
+        return larger(larger(-tall_.low, tall_.high) / used_y_, larger(-wide_.low, wide_.high) / aspect_ / used_x_);
+    }
+    /// An eye before the origin, at a distance that others share.
+    [[nodiscard]] Camera camera_before_origin(double distance, double half_height) const {
+        ViewFit placed = *this;
+        placed.distance_ = distance;
+        return placed.camera_at(0.0, 0.0, half_height);
+    }
 
     /// The fit of the next pass, which is nearer to equal margins.
     [[nodiscard]] ViewFit centring() const {
@@ -128,6 +164,16 @@ public:
     /// seen: the fit of the first pass.
     [[nodiscard]] Camera camera(const ViewFit& seen) const {
         const double x = seen.x_.nearest(x_.middle(), distance_), y = seen.y_.nearest(y_.middle(), distance_);
+        if (!view_.orthographic) return camera_at(x, y, 0.0);
+        // Parallel rays: the extents of the points themselves, in the middle of the picture.
+        const double half_x = 0.5 * (seen.wide_.high - seen.wide_.low), half_y = 0.5 * (seen.tall_.high - seen.tall_.low);
+        return seen.camera_at(0.5 * (seen.wide_.low + seen.wide_.high), 0.5 * (seen.tall_.low + seen.tall_.high),
+                              larger(half_y / used_y_, half_x / aspect_ / used_x_));
+    }
+
+private:
+    /// The eye at (x, y) across the view; half_height: of the picture by parallel rays.
+    [[nodiscard]] Camera camera_at(double x, double y, double half_height) const {
         const Vec3d eye = ((origin_ + axes_.right * x) + axes_.up * y) + axes_.back * distance_;
 
         // Zoom changes the field of view, not the position; the tangent scales exactly.
@@ -138,17 +184,13 @@ public:
         // Near plane: half way to the nearest point, or 1e-4 of the camera's distance if that is more.
         camera.near_z = static_cast<float>(larger(0.5 * (distance_ - front_), 1e-4 * distance_));
         camera.far_z = 0.0f;
-        if (view_.orthographic) make_parallel(seen, zoom, camera);
+        if (view_.orthographic) make_parallel(x, y, half_height, zoom, camera);
         return camera;
     }
 
-private:
-    /// Parallel rays: the extents of the points themselves, in the middle of the picture.
-    void make_parallel(const ViewFit& seen, double zoom, Camera& camera) const {
-        const double x = 0.5 * (seen.wide_.low + seen.wide_.high), y = 0.5 * (seen.tall_.low + seen.tall_.high);
-        const double half_x = 0.5 * (seen.wide_.high - seen.wide_.low), half_y = 0.5 * (seen.tall_.high - seen.tall_.low);
-        const double depth = front_ - back_, aspect = aspect_;
-        const double half = larger(larger(half_y, half_x / aspect), 1e-9 * larger(depth, 1e-9)) / (1.0 - kFrameMargin);
+    void make_parallel(double x, double y, double half_height, double zoom, Camera& camera) const {
+        const double depth = front_ - back_;
+        const double half = larger(half_height, 1e-9 * larger(depth, 1e-9));
         // The eye is as far from the nearest point as the set is deep: both planes keep clear of it.
         const double room = larger(depth, half);
         const Vec3d eye = ((origin_ + axes_.right * x) + axes_.up * y) + axes_.back * (front_ + room);
@@ -163,6 +205,7 @@ private:
     Vec3d origin_;
     Axes axes_;
     double tan_y_;
+    double used_x_, used_y_;  // shares of half the picture within the margin
     Extent x_, y_;
     double aspect_;
     Span wide_, tall_;       // of orthographic views
@@ -172,7 +215,8 @@ private:
 };
 
 /// True if no vertex of the instance can change the fit, judged by its box. In scenes of many instances few are at the rim.
-bool is_seen_already(const ViewFit& fit, const FramedVertices& used, const Mat4& world_from_object, Vec3d center) {
+template <class Fit>
+bool is_seen_already(const Fit& fit, const FramedVertices& used, const Mat4& world_from_object, Vec3d center) {
     if (used.bounds.empty) return true;
     const Vec3f &low = used.bounds.min, &high = used.bounds.max;
     const PlacedBox box({low.x, low.y, low.z}, {high.x, high.y, high.z}, world_from_object);
@@ -183,17 +227,88 @@ bool is_seen_already(const ViewFit& fit, const FramedVertices& used, const Mat4&
     return true;
 }
 
-/// add_points(fit) adds all points, relative to the box's middle.
-template <class AddPoints>
-Camera fitted(const Box& box, float aspect, const ViewSettings& view, const AddPoints& add_points) {
+/// Squared distance of the farthest point from the origin.
+class Ball {
+public:
+    [[nodiscard]] bool has(Vec3d p) const { return dot(p, p) <= squared_; }
+    void add(Vec3d p) { squared_ = larger(squared_, dot(p, p)); }
+    [[nodiscard]] double radius() const { return std::sqrt(squared_); }
+
+private:
+    double squared_ = 0.0;
+};
+
+/// The points that a view is fitted to, relative to the middle of their box: the framed part's vertices, or the corners of a box.
+class FramedPoints {
+public:
+    FramedPoints(const Scene& scene, const Bounds& bounds) : scene_(&scene), part_(framed_part(scene)) {
+        const Bounds& framed = part_.whole ? bounds : part_.bounds;
+        box_ = usable_box(framed);
+        by_box_ = framed.empty || !(framed.radius() > 1e-5 * length(box_.center)) || !(framed.radius() < kMaxCoordinate);
+    }
+    explicit FramedPoints(const Bounds& bounds) : box_(usable_box(bounds)) {}
+
+    [[nodiscard]] const Box& box() const { return box_; }
+
+    /// fit: has add(p), and has(p), which is true if adding p would change nothing.
+    template <class Fit>
+    void add_to(Fit& fit) const {
+        const Vec3d& half = box_.half;
+        if (by_box_)
+            for (int k = 0; k < 8; ++k) fit.add({k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z});
+        TimeCheck check;
+        for (const int i : by_box_ ? std::vector<int>{} : part_.instances) {
+            check();
+            const Instance& instance = scene_->instances[static_cast<std::size_t>(i)];
+            const Mesh& mesh = scene_->meshes[static_cast<std::size_t>(instance.mesh)];
+            const FramedVertices& vertices = part_.meshes[static_cast<std::size_t>(instance.mesh)];
+            if (is_seen_already(fit, vertices, instance.world_from_object, box_.center)) continue;
+            for (const std::uint32_t v : vertices.vertices) {
+                check();
+                const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
+                if (finite(p)) fit.add(to_double(p) - box_.center);
+            }
+        }
+    }
+
+private:
+    const Scene* scene_ = nullptr;
+    FramedPart part_;
+    Box box_;
+    bool by_box_ = true;
+};
+
+/// Views from one distance, with the middle of the box in the middle of each picture.
+std::vector<Camera> fitted_together(const FramedPoints& points, float aspect, std::span<const ViewSettings> views) {
+    Ball ball;
+    if (std::any_of(views.begin(), views.end(), [](const ViewSettings& view) { return view.any_side; })) points.add_to(ball);
+    std::vector<ViewFit> fits;
+    double distance = 0.0, half_height = 0.0;
+    for (const ViewSettings& view : views) {
+        ViewFit& fit = fits.emplace_back(points.box().center, aspect, view);
+        if (view.any_side)
+            fit.add_ball(ball.radius());
+        else
+            points.add_to(fit);
+        distance = larger(distance, fit.distance_before_origin(length(points.box().half)));
+        half_height = larger(half_height, fit.half_height_before_origin());
+    }
+    std::vector<Camera> cameras;
+    for (const ViewFit& fit : fits) cameras.push_back(fit.camera_before_origin(distance, half_height));
+    return cameras;
+}
+
+Camera fitted(const FramedPoints& points, float aspect, const ViewSettings& view) {
     constexpr int kMostPasses = 5;
-    ViewFit seen(box.center, aspect, view);
-    add_points(seen);
-    seen.choose_distance(length(box.half));
+    if (view.any_side) return fitted_together(points, aspect, {&view, 1}).front();
+    const double radius = length(points.box().half);
+    ViewFit seen(points.box().center, aspect, view);
+    points.add_to(seen);
+    seen.choose_distance(radius);
     ViewFit fit = seen;
     for (int pass = 1; pass < kMostPasses && (pass == 1 || !fit.is_centred()); ++pass) {
         fit = fit.centring();
-        add_points(fit);
+        points.add_to(fit);
     }
     return fit.camera(seen);
 }
@@ -202,11 +317,7 @@ Camera fitted(const Box& box, float aspect, const ViewSettings& view, const AddP
 
 Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view) {
     const FpEnvironment environment_of_host;
-    const Box box = usable_box(bounds);
-    return fitted(box, aspect, view, [&](ViewFit& fit) {
-        for (int corner = 0; corner < 8; ++corner)
-            fit.add({corner & 1 ? box.half.x : -box.half.x, corner & 2 ? box.half.y : -box.half.y, corner & 4 ? box.half.z : -box.half.z});
-    });
+    return fitted(FramedPoints(bounds), aspect, view);
 }
 
 Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
@@ -216,26 +327,12 @@ Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
 
 Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
     const FpEnvironment environment_of_host;
-    const FramedPart part = framed_part(scene);
-    const Bounds& framed = part.whole ? bounds : part.bounds;
-    const Box box = usable_box(framed);
-    if (framed.empty || !(framed.radius() > 1e-5 * length(box.center)) || !(framed.radius() < kMaxCoordinate))
-        return frame_bounds(framed, aspect, view);
-    TimeCheck check;
-    return fitted(box, aspect, view, [&](ViewFit& fit) {
-        for (const int i : part.instances) {
-            check();
-            const Instance& instance = scene.instances[static_cast<std::size_t>(i)];
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-            const FramedVertices& vertices = part.meshes[static_cast<std::size_t>(instance.mesh)];
-            if (is_seen_already(fit, vertices, instance.world_from_object, box.center)) continue;
-            for (const std::uint32_t v : vertices.vertices) {
-                check();
-                const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
-                if (finite(p)) fit.add(to_double(p) - box.center);
-            }
-        }
-    });
+    return fitted(FramedPoints(scene, bounds), aspect, view);
+}
+
+std::vector<Camera> frame_views(const Scene& scene, const Bounds& bounds, float aspect, std::span<const ViewSettings> views) {
+    const FpEnvironment environment_of_host;
+    return fitted_together(FramedPoints(scene, bounds), aspect, views);
 }
 
 }  // namespace halflit

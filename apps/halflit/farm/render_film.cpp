@@ -87,7 +87,7 @@ private:
         if (output.empty() || output.ends_with('/')) {
             const std::string usual = default_output(options_.scene, options_.format);
             const std::string stem = stem_of(usual);
-            output += stem + "_{:04}" + usual.substr(stem.size());
+            output += stem + (options_.film.several_views() ? "_{view}" : "_{:04}") + usual.substr(stem.size());
         }
         film_format_ = film::film_format_of(output);
         if (film_format_ && options_.format)
@@ -101,7 +101,7 @@ private:
             format_ = *format;
         }
         for (const std::int64_t number : {whole_.first, whole_.last}) {
-            const auto name = film_format_ ? Result<std::string>(output) : frame_name(output, options_.scene, number);
+            const auto name = film_format_ ? Result<std::string>(output) : frame_name(output, options_.scene, options_.film, number);
             if (!name) return tl::unexpected(name.error());
             if (is_folder(*name)) return fail(ErrorCode::io, *name + ": " + io::errno_text(EISDIR));
         }
@@ -110,7 +110,7 @@ private:
 
     /// The file of a frame: the same for all in one file.
     [[nodiscard]] std::string file_of(std::size_t i) const {
-        return film_format_ ? options_.output : frame_name(options_.output, options_.scene, range_.number(i)).value_or("");
+        return film_format_ ? options_.output : frame_name(options_.output, options_.scene, options_.film, range_.number(i)).value_or("");
     }
 
     /// `each`: a check of one output.
@@ -175,6 +175,10 @@ private:
             const int of_file = job_->film.file_camera;
             if (of_file >= 0) camera = job_->scene().cameras[static_cast<std::size_t>(of_file)];
         }
+        if (film.several_views()) {
+            camera = job_->film.views[static_cast<std::size_t>(number)];
+            (void)relight(*job_, camera);
+        }
         if (film.turntable > 0) {
             camera = turned_camera(camera, job_->film.bounds, number, film.turntable);
             (void)relight(*job_, camera);
@@ -188,6 +192,7 @@ private:
     [[nodiscard]] std::int64_t frames_of_all() const {
         const FilmOptions& film = options_.film;
         if (film.turntable > 0) return film.turntable;
+        if (film.several_views()) return static_cast<std::int64_t>(film.views.size());
         const AnimationInfo* const animation = job_->animation();
         if (animation == nullptr || !film.animates()) return 1;
         constexpr double kMost = 1e6;
@@ -352,8 +357,8 @@ Result<void> settle_quality(PictureOptions& options) {
 
 Result<int> render_film(PictureOptions options, bool skip_existing) {
     if (const auto checked = check_film_options(options.film, options.output); !checked) return tl::unexpected(checked.error());
-    if (!options.aovs.empty()) return fail(ErrorCode::usage, "--aov: cannot be combined with --frames or --turntable");
-    if (options.blank_check) return fail(ErrorCode::usage, "--blank-check: cannot be combined with --frames or --turntable");
+    if (!options.aovs.empty()) return fail(ErrorCode::usage, "--aov: cannot be combined with --frames, --turntable or several views");
+    if (options.blank_check) return fail(ErrorCode::usage, "--blank-check: cannot be combined with --frames, --turntable or several views");
     if (const auto settled = settle_quality(options); !settled) return tl::unexpected(settled.error());
     io::begin_file_set();
     if (const auto checked = check_report(options.report); !checked) return tl::unexpected(checked.error());

@@ -79,7 +79,8 @@ Result<RenderKind> settle_kind(RenderLine& line) {
     if (!line.list.empty())
         if (const auto added = add_listed(line.list, words); !added) return tl::unexpected(added.error());
     if (line.film.wanted()) {
-        if (words.size() > 1) return fail(ErrorCode::usage, "--frames and --turntable: expected one scene, found " + words[1]);
+        if (words.size() > 1)
+            return fail(ErrorCode::usage, "--frames, --turntable and several views: expected one scene, found " + words[1]);
         if (is_folder(line.output) && !line.output.ends_with('/')) line.output += '/';
         const bool names_file = !line.output.empty() && !line.output.ends_with('/') && !film::film_format_of(line.output) && !line.format;
         if (const auto format = output_format_of(line.output); names_file && !format)

@@ -1,11 +1,15 @@
 #include "apps/halflit/render/film_options.hpp"
 
+#include "apps/halflit/flags/flags.hpp"
 #include "apps/halflit/flags/values.hpp"
 #include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/program/spelling.hpp"
 #include "apps/io/files/file_access.hpp"
+#include "halflit/camera.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -81,7 +85,9 @@ Result<void> check_film_options(const FilmOptions& options, const std::string& o
         if (options.share) return fail(ErrorCode::usage, kShareNeeds);
         return {};
     }
-    if (options.time_held && options.turntable == 0)
+    if (!options.views.empty() && (options.frames || options.turntable > 0))
+        return fail(ErrorCode::usage, "--view: cannot be combined with --frames or --turntable");
+    if (options.time_held && options.turntable == 0 && options.frames)
         return fail(ErrorCode::usage, "--time: cannot be combined with --frames, whose frame N is at N / --fps seconds");
     if (output == "-") return fail(ErrorCode::usage, "-o -: cannot be combined with --frames or --turntable, which need a file name");
     if (const auto format = film::film_format_of(output)) return film::check_film_format(output, *format);
@@ -89,9 +95,39 @@ Result<void> check_film_options(const FilmOptions& options, const std::string& o
     return {};
 }
 
-Result<std::string> frame_name(const std::string& pattern, const std::string& scene, std::int64_t number) {
+Result<std::vector<GivenView>> parse_views(std::string_view text) {
+    std::vector<std::string> names;
+    for (const NamedView& view : kNamedViews) names.emplace_back(view.name);
+    const std::vector<std::string> words = words_of(text, ',');
+    std::vector<GivenView> views;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const auto named = std::find(names.begin(), names.end(), words[i]);
+        if (named != names.end()) {
+            const NamedView& view = kNamedViews[named - names.begin()];
+            views.push_back({*named, view.azimuth_deg, view.elevation_deg, true});
+            continue;
+        }
+        const auto azimuth = parse_float(words[i], -3600, 3600);
+        if (!azimuth)
+            return fail(ErrorCode::usage, fmt::format("expected {} or AZIMUTH,ELEVATION, found '{}'{}", joined(names, ", "), words[i],
+                                                      did_you_mean(words[i], names)));
+        const auto elevation = i + 1 < words.size() ? parse_float(words[i + 1], -90, 90) : fail(ErrorCode::usage, "");
+        if (!elevation)
+            return fail(ErrorCode::usage, fmt::format("expected an elevation from -90 to 90 after the azimuth {}, found {}", words[i],
+                                                      i + 1 < words.size() ? "'" + words[i + 1] + "'" : "nothing"));
+        views.push_back({words[i] + "," + words[i + 1], *azimuth, *elevation, false});
+        ++i;
+    }
+    return views;
+}
+
+Result<std::string> frame_name(const std::string& pattern, const std::string& scene, const FilmOptions& film, std::int64_t number) {
     bool numbered = false;
-    auto name = fill_pattern(pattern, "{}, {:04}, {stem} or {folder}", [&](std::string_view word) -> std::optional<std::string> {
+    auto name = fill_pattern(pattern, "{}, {:04}, {view}, {stem} or {folder}", [&](std::string_view word) -> std::optional<std::string> {
+        if (word == "view" && film.several_views()) {
+            numbered = true;
+            return film.views[static_cast<std::size_t>(number)].name;
+        }
         if (word == "stem") return scene.empty() || scene == "-" ? "halflit" : stem_of(scene);
         if (word == "folder") return io::folder_of(scene);
         auto digits = digits_for(word, word.starts_with("frame") ? "frame" : "", number);
@@ -100,9 +136,8 @@ Result<std::string> frame_name(const std::string& pattern, const std::string& sc
     });
     if (name && !numbered)
         return fail(ErrorCode::usage,
-                    fmt::format("-o {}: expected a place for the frame's number, as frame_{{:04}}.png, or a .gif, .apng or "
-                                ".webp file",
-                                pattern));
+                    fmt::format("-o {}: expected a place for the {}, or a .gif, .apng or .webp file", pattern,
+                                film.several_views() ? "view's name, as {view}.png" : "frame's number, as frame_{:04}.png"));
     return name;
 }
 

@@ -29,7 +29,18 @@ struct FrameRate {
 };
 [[nodiscard]] Result<FrameRate> parse_fps(std::string_view text);
 
+/// A side to look from.
+struct GivenView {
+    std::string name;  ///< of kNamedViews, or the two numbers: "30,-20"
+    float azimuth_deg = 0, elevation_deg = 0;
+    bool named = false;  ///< relative to the model's front
+};
+
+/// Names of kNamedViews, and pairs of numbers AZIMUTH,ELEVATION, with commas between them.
+[[nodiscard]] Result<std::vector<GivenView>> parse_views(std::string_view text);
+
 struct FilmOptions {
+    std::vector<GivenView> views;  ///< each has a picture; a single one is not moving
     std::optional<FrameRange> frames;
     std::optional<FrameRate> fps;
     int turntable = 0;                   ///< frames of one turn; 0: the view stands still
@@ -39,11 +50,14 @@ struct FilmOptions {
     std::optional<double> share;         ///< --share, percent: with --max-error, instead of quality
 
     /// Frames are asked for.
-    [[nodiscard]] bool wanted() const { return frames || turntable > 0; }
+    [[nodiscard]] bool wanted() const { return frames || turntable > 0 || several_views(); }
+    [[nodiscard]] bool several_views() const { return views.size() > 1; }
     /// The animation runs. A turntable shows one pose unless it has a frame rate.
     [[nodiscard]] bool animates() const { return !time_held && frames && (turntable == 0 || fps); }
-    /// --frames, or one turn.
-    [[nodiscard]] FrameRange range() const { return frames.value_or(FrameRange{0, turntable - 1, 1}); }
+    /// --frames, one turn, or one for each view.
+    [[nodiscard]] FrameRange range() const {
+        return frames.value_or(FrameRange{0, (several_views() ? static_cast<std::int64_t>(views.size()) : turntable) - 1, 1});
+    }
     /// --fps, or 24 for an animation and 12 for a turntable.
     [[nodiscard]] FrameRate rate() const { return fps.value_or(FrameRate{animates() ? 24 : 12, 1}); }
     /// Seconds of the animation at a frame's number.
@@ -63,7 +77,9 @@ inline constexpr const char* kShareNeeds = "--share: expected together with --ma
 [[nodiscard]] Result<void> check_film_options(const FilmOptions& options, const std::string& output);
 
 /// The file of a frame. In a pattern, {} and {frame} are its number, {:04} and {frame:04} with zeros in front; {stem} is the scene's name
-/// without folder and extension, {folder} its folder. Fails (usage) for other words in braces, and for a pattern without a number.
-[[nodiscard]] Result<std::string> frame_name(const std::string& pattern, const std::string& scene, std::int64_t number);
+/// without folder and extension, {folder} its folder, {view} the name of its view, if there are several. Fails (usage) for other words in
+/// braces, and for a pattern that gives all frames one name.
+[[nodiscard]] Result<std::string> frame_name(const std::string& pattern, const std::string& scene, const FilmOptions& film,
+                                             std::int64_t number);
 
 }  // namespace halflit::cli

@@ -40,6 +40,8 @@ std::string camera_choice(const Camera* of_file, const RenderOptions& options, b
     if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
     if (options.camera_position)
         return fmt::format("camera: at {},{},{}", options.camera_position->x, options.camera_position->y, options.camera_position->z);
+    if (!options.film.views.empty())
+        return fmt::format("camera: the whole scene, {}, all sides at one scale", options.film.views.front().name);
     return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}{}", options.view.azimuth_deg,
                        options.view.elevation_deg, replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
 }
@@ -129,12 +131,31 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     return {};
 }
 
+/// The sides that --view asks for. Names are relative to the model's front.
+std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& options) {
+    std::vector<ViewSettings> sides;
+    for (const GivenView& given : options.film.views) {
+        ViewSettings& side = sides.emplace_back(options.view);
+        side.azimuth_deg = given.azimuth_deg + (given.named && scene.faces_back ? 180.0f : 0.0f);
+        side.elevation_deg = given.elevation_deg;
+        side.any_side = !options.fit_px;
+    }
+    return sides;
+}
+
 /// The view that the flags ask for. usual: the size without --size.
 PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureSize usual) {
     PictureRequest request;
     request.size = options.size;
     request.usual_size = usual;
     const Bounds& bounds = job.film.bounds;
+    if (!options.film.views.empty()) {
+        const PictureSize size = options.size.value_or(usual);
+        job.film.views = frame_views(job.scene(), bounds, static_cast<float>(size.width) / static_cast<float>(size.height),
+                                     given_sides(job.scene(), options));
+        request.camera = job.film.views.front();
+        return request;
+    }
     if (options.camera_position) {
         const Vec3d target = options.camera_target.value_or(bounds.empty ? Vec3d{} : to_double(bounds.center()));
         request.camera = placed_camera(to_float(*options.camera_position), to_float(target), options.view.fov_y_deg, bounds);
@@ -171,8 +192,9 @@ void tell_choices(RenderJob& job, const RenderOptions& given) {
     job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, given.exposure ? "" : ", chosen"));
 }
 
-/// The flags' coordinates are the file's with y up; the scene may be drawn elsewhere, and larger or smaller.
-RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
+/// The flags' coordinates are the file's with y up; the scene may be drawn elsewhere, and larger or smaller. The margin is in pixels of the
+/// picture.
+RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, PictureSize usual) {
     const Placement& place = source.placement;
     const auto times = [](float value, double factor) { return static_cast<float>(std::clamp(value * factor, -3e38, 3e38)); };
     const auto placed = [&](Vec3d p) {
@@ -182,6 +204,11 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source) {
     };
     if (options.camera_position) options.camera_position = placed(*options.camera_position);
     if (options.camera_target) options.camera_target = placed(*options.camera_target);
+    if (options.fit_px) {
+        const PictureSize size = options.size.value_or(usual);
+        options.view.margin_x = 2.0 * *options.fit_px / size.width;
+        options.view.margin_y = 2.0 * *options.fit_px / size.height;
+    }
     options.settings.shadow_fade = times(options.settings.shadow_fade, place.scale);
     options.lamp_size = times(options.lamp_size, place.scale);
     for (auto& [light, position] : options.lights) {
@@ -221,12 +248,14 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
 
 Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     if (options.camera_position && (options.camera || options.whole_scene))
-        return fail(ErrorCode::usage, "--camera-position: cannot be combined with --camera, --azimuth, --elevation or --zoom");
+        return fail(ErrorCode::usage,
+                    "--camera-position: cannot be combined with --camera, --view, --fit, --azimuth, --elevation or --zoom");
     if (options.camera_target && !options.camera_position)
         return fail(ErrorCode::usage, "--camera-target: expected together with --camera-position");
     if (options.camera && options.own_view())
-        return fail(ErrorCode::usage,
-                    "--camera: cannot be combined with --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
+        return fail(
+            ErrorCode::usage,
+            "--camera: cannot be combined with --view, --fit, --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
     if (options.size)
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
     if (options.max_memory_bytes > 0)
@@ -272,7 +301,7 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     const Bounds& bounds = job.film.bounds;
     const bool loader_said_so = job.source.file && job.source.file->triangles_drawn == 0;
     if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
-    const RenderOptions placed = in_drawn_world(options, job.source);
+    const RenderOptions placed = in_drawn_world(options, job.source, usual);
     job.settings.shadow_fade = placed.settings.shadow_fade;
     if (const auto begun = begin_light(job, placed); !begun) return tl::unexpected(begun.error());
     if (const auto chosen = choose(job, placed, request_of(job, placed, usual)); !chosen) return tl::unexpected(chosen.error());
@@ -317,7 +346,7 @@ void follow_lights(RenderJob& job, const RenderOptions& options) {
 }
 
 Result<void> change_light(RenderJob& job, const RenderOptions& options) {
-    const RenderOptions placed = in_drawn_world(options, job.source);
+    const RenderOptions placed = in_drawn_world(options, job.source, {job.width, job.height});
     if (const auto begun = begin_light(job, placed); !begun) return begun;
     PictureRequest request;
     request.size = PictureSize{job.width, job.height};
@@ -330,7 +359,7 @@ Result<void> change_light(RenderJob& job, const RenderOptions& options) {
 
 Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSize usual, bool same_light) {
     if (const auto chosen = choose_settings(job.settings, options); !chosen) return chosen;
-    const RenderOptions placed = in_drawn_world(options, job.source);
+    const RenderOptions placed = in_drawn_world(options, job.source, usual);
     job.settings.shadow_fade = placed.settings.shadow_fade;
     if (!same_light)
         if (const auto begun = begin_light(job, placed); !begun) return begun;

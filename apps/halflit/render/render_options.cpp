@@ -110,7 +110,23 @@ FlagGroup camera_flags(RenderOptions& o) {
                    90),
          view_flag(o.whole_scene, "--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f),
          view_flag(o.fov_given, "--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170),
-         {"--orthographic", "", "View the whole scene by parallel rays, without perspective",
+         {"--view", "front|back|left|right|top|bottom|iso|AZ,EL",
+          "View the whole scene from this side, or from the azimuth AZ and the elevation EL. All sides have one distance and one scale. "
+          "Several, with commas or repeated: a picture of each, as -o '{view}.png'",
+          [&o](const std::string& text) -> Result<void> {
+              const auto views = parse_views(text);
+              if (!views) return tl::unexpected(views.error());
+              o.film.views.insert(o.film.views.end(), views->begin(), views->end());
+              o.whole_scene = true;
+              return {};
+          },
+          true},
+         {"--fit", "PIXELS", "Fit the view, or the largest of several, into the picture, with this margin",
+          [&o](const std::string& text) {
+              o.whole_scene = true;
+              return assign(o.fit_px, parse_int(text, 0, 1 << 20).map([](std::int64_t n) { return std::optional(static_cast<int>(n)); }));
+          }},
+         {"--ortho,--orthographic", "", "View the whole scene by parallel rays, without perspective",
           [&o](const std::string&) -> Result<void> {
               o.whole_scene = o.view.orthographic = true;
               return {};

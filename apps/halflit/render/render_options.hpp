@@ -32,7 +32,8 @@ struct RenderOptions {
 
     std::optional<std::string> camera;  ///< a camera of the file: its index or name
     ViewSettings view;
-    bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation or --zoom was given
+    std::optional<int> fit_px;                            ///< --fit: margin of a view that is as near as its side allows
+    bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation, --zoom, --fit or --view was given
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
     bool ground = false;                                  ///< add a ground that only takes shadow

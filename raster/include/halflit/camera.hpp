@@ -8,7 +8,10 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace halflit {
 
@@ -62,7 +65,22 @@ struct ViewSettings {
     float zoom = 1.0f;            ///< 2 makes things twice as large
     float fov_y_deg = 35.0f;      ///< full vertical angle before the zoom
     bool orthographic = false;    ///< parallel rays: no perspective, and no fov_y_deg
+    /// Far enough for every direction: the scene is seen from all sides at one distance and, by parallel rays, at one scale, with the
+    /// middle of its box in the middle of the picture. Otherwise the view is as near as its own direction allows.
+    bool any_side = false;
+    double margin_x = 0.08, margin_y = 0.08;  ///< shares of half the picture's width and height that stay free at each side, in [0, 0.9]
+    friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
+
+/// A direction to look from.
+struct NamedView {
+    std::string_view name;
+    float azimuth_deg, elevation_deg;  ///< as in ViewSettings
+};
+
+/// The views of a technical drawing. `iso` sees a cube's three edges at equal angles: its elevation is the arc tangent of 1 / sqrt(2).
+inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},   {"left", -90, 0},         {"right", 90, 0},
+                                            {"top", 0, 90},  {"bottom", 0, -90}, {"iso", 45, 35.26438968f}};
 
 /// Fails (usage) for a camera whose world_from_camera mirrors, or whose sides are not in order: it would show things inside out.
 [[nodiscard]] HALFLIT_API Result<void> check_camera(const Camera& camera);
@@ -77,6 +95,12 @@ struct ViewSettings {
 [[nodiscard]] HALFLIT_API Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view = {});
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
+
+/// Several views of one scene that can be compared: all have the middle of its box in the middle of the picture, and one distance and, by
+/// parallel rays, one scale, which are the least that show the scene whole in each of them. Of the views, field of view, zoom, margin and
+/// `orthographic` should be equal. bounds: scene_bounds(scene).
+[[nodiscard]] HALFLIT_API std::vector<Camera> frame_views(const Scene& scene, const Bounds& bounds, float aspect,
+                                                          std::span<const ViewSettings> views);
 
 /// False if the camera shows nothing of the scene: all triangles, lines and points lie outside of its view, or turn a side to it that is
 /// not drawn. Ends at the first one that it shows, so it is quick in all but odd scenes.
