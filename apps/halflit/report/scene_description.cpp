@@ -1,6 +1,7 @@
 #include "apps/halflit/report/scene_description.hpp"
 
 #include "apps/halflit/flags/plan_names.hpp"
+#include "apps/halflit/report/measures_json.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/scene/mesh_topology.hpp"
@@ -213,6 +214,9 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     description["drawn"] = counts_json(scene, job.light);
     const Bounds& bounds = job.prepared->bounds();
     description["bounds"] = bounds.empty ? Json(nullptr) : Json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
+    auto measures = measures_json(job);
+    if (!measures) return tl::unexpected(measures.error());
+    description["measures"] = std::move(*measures);
     Json cameras = Json::array();
     for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
     description["cameras"] = std::move(cameras);

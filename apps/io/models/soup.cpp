@@ -2,7 +2,7 @@
 
 #include "apps/io/files/in_parts.hpp"
 #include "apps/io/models/crease_normals.hpp"
-#include "apps/io/models/place_table.hpp"
+#include "sh/place_table.hpp"
 #include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 

@@ -4,7 +4,7 @@
 #include "apps/io/models/model_builder.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/models/model_text.hpp"
-#include "apps/io/models/place_table.hpp"
+#include "sh/place_table.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>

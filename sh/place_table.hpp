@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace halflit::io::detail {
+namespace halflit {
 
 /// Gives equal positions equal numbers. -0 equals 0; a NaN equals one of the same bits. V: Vec3f or Vec3d.
 template <class V>
@@ -107,4 +107,4 @@ private:
     std::uint64_t secret_[4] = {0x9E3779B97F4A7C15u, 0xD6E8FEB86659FD93u, 0xA0761D6478BD642Fu, 0xE7037ED1A0B428DBu};
 };
 
-}  // namespace halflit::io::detail
+}  // namespace halflit

@@ -1,5 +1,5 @@
 // The table of equal positions.
-#include "apps/io/models/place_table.hpp"
+#include "sh/place_table.hpp"
 #include "halflit/math.hpp"
 #include "tests/support/random.hpp"
 
@@ -10,9 +10,8 @@
 #include <tuple>
 
 using namespace halflit;
-using halflit::io::detail::PlaceTable;
 
-TEST_CASE("place table: equal positions have the number of the first one, as a map has it", "[io]") {
+TEST_CASE("place table: equal positions have the number of the first one, as a map has it", "[sh]") {
     test::Random random(5);
     PlaceTable<Vec3f> table;
     std::vector<Vec3f> list;
@@ -26,7 +25,7 @@ TEST_CASE("place table: equal positions have the number of the first one, as a m
     CHECK(list.size() == known.size());
 }
 
-TEST_CASE("place table: the zeros are one place, and so is a NaN", "[io]") {
+TEST_CASE("place table: the zeros are one place, and so is a NaN", "[sh]") {
     PlaceTable<Vec3f> table;
     std::vector<Vec3f> list;
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -37,7 +36,7 @@ TEST_CASE("place table: the zeros are one place, and so is a NaN", "[io]") {
     CHECK(table.add({nan, 1, 3}, list) == 2);
 }
 
-TEST_CASE("place table: positions that differ in few bits take no longer than others", "[io]") {
+TEST_CASE("place table: positions that differ in few bits take no longer than others", "[sh]") {
     const auto check = [](const auto& position_of) {
         PlaceTable<Vec3d> table;
         std::vector<Vec3d> list;

@@ -1,0 +1,84 @@
+#include "apps/halflit/report/measures_json.hpp"
+
+#include "halflit/measures.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace halflit::cli {
+namespace {
+
+constexpr std::uint64_t kMostTriangles = 1u << 25;  // some ten seconds
+constexpr int kDigits = 7;                          // as many as float32 positions have
+
+double parsed(std::string_view text) {
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value + 0.0;  // no -0
+}
+
+double rounded(double value) { return parsed(fmt::format("{:.{}g}", value, kDigits)); }
+
+/// Coordinates, rounded to that digit which is the seventh of the size.
+Json point_json(Vec3d p, double size) {
+    const int decimals = size > 0.0 ? std::clamp(kDigits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, 60) : kDigits;
+    const auto digits = [decimals](double x) { return parsed(fmt::format("{:.{}f}", x, decimals)); };
+    return {digits(p.x), digits(p.y), digits(p.z)};
+}
+
+/// Unit of length of a file's own coordinates, as Placement has them; null: the format has none.
+Json unit_of(const SceneSource& source) {
+    if (!source.file) return nullptr;
+    constexpr ModelFormat kInMetres[] = {ModelFormat::gltf, ModelFormat::glb, ModelFormat::three_mf};
+    for (const ModelFormat format : kInMetres)
+        if (source.file->format == model_format_name(format)) return "m";
+    return nullptr;
+}
+
+/// False for scenes of millions of instances, whose triangles take long to measure although they are few in memory.
+bool is_soon_measured(const Scene& scene) {
+    std::uint64_t stored = 0, drawn = 0;
+    for (const Mesh& mesh : scene.meshes) stored += triangles_of(mesh);
+    for (const Instance& instance : scene.instances) drawn += triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+    return drawn <= std::max(kMostTriangles, 2 * stored);
+}
+
+}  // namespace
+
+Result<Json> measures_json(const RenderJob& job) {
+    if (!is_soon_measured(job.scene())) return Json(nullptr);
+    const auto measured = measure_geometry(job.scene());
+    if (!measured) return tl::unexpected(measured.error());
+    const Measures& found = *measured;
+    if (found.triangles == found.not_finite_triangles) return Json(nullptr);
+    const Placement& placement = job.source.placement;
+    const double unit = 1.0 / placement.scale;  // a power of two
+    // Quarter turns may exchange the ends of an axis.
+    const Vec3d a = placement.out(found.min), b = placement.out(found.max);
+    const Vec3d min{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+    const Vec3d max{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+    const Vec3d size = max - min;
+    const double largest = std::max({size.x, size.y, size.z});
+    return Json{{"unit", unit_of(job.source)},
+                {"min", point_json(min, largest)},
+                {"max", point_json(max, largest)},
+                {"size", point_json(size, largest)},
+                {"area", rounded(found.area * (unit * unit))},
+                {"volume", found.watertight ? Json(rounded(found.volume * ((unit * unit) * unit))) : Json(nullptr)},
+                {"center", point_json(placement.out(found.center), largest)},
+                {"triangles", found.triangles},
+                {"degenerate_triangles", found.degenerate_triangles},
+                {"not_finite_triangles", found.not_finite_triangles},
+                {"bodies", found.bodies},
+                {"watertight", found.watertight},
+                {"open_edges", found.open_edges},
+                {"flipped_edges", found.flipped_edges},
+                {"crowded_edges", found.crowded_edges}};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,13 @@
+// Measures of a scene for people and scripts.
+#pragma once
+
+#include "apps/halflit/report/run_report.hpp"
+
+namespace halflit::cli {
+
+/// {"unit", "min", "max", "size", "area", "volume", "center", "triangles", ..}: the measures of all that is drawn, in the unit and along
+/// the axes of the file, rounded to seven digits. Null where nothing has triangles, and for scenes that draw more than 2^25 triangles by
+/// drawing the same meshes again and again. Fails after the time limit.
+[[nodiscard]] Result<Json> measures_json(const RenderJob& job);
+
+}  // namespace halflit::cli
