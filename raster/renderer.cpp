@@ -111,12 +111,14 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     const RasterKernels& raster = raster_kernels(isa);
     const shading::ShadeKernels& shade = shading::shade_kernels(isa);
     const bool by_reference = plan.options.accuracy == Accuracy::reference;
-    if (by_reference)
+    const bool shades = target.pixels != nullptr || target.linear != nullptr;
+    if (by_reference && shades)
         if (auto ok = reference.build(scene, light, plan.shading, plan.options); !ok) return tl::unexpected<Error>(ok.error());
     report.ms.plan = watch.lap();
 
-    if (auto ok = shadow_maps.draw(scene, plan, *plan_memory.shadow_texels, raster, shade, executor); !ok)
-        return tl::unexpected<Error>(ok.error());
+    if (shades)
+        if (auto ok = shadow_maps.draw(scene, plan, *plan_memory.shadow_texels, raster, shade, executor); !ok)
+            return tl::unexpected<Error>(ok.error());
     report.ms.shadows = watch.lap();
 
     if (auto ok = geometry.make(scene, plan.picture, raster, executor, target.triangle != nullptr); !ok)
@@ -127,7 +129,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     watch.lap();
 
     records.make(geometry, plan.shading.materials, raster, executor);
-    if (plan.options.rate == ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
+    if (shades && plan.options.rate == ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
     const Output output(target, plan.written);
     if (output.has_surface()) make_surface(scene, raster, output.has_material());
     report.ms.transform += watch.lap();
@@ -141,9 +143,12 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
                            plan.written,
                            only};
     TileCounts behind_counts;
-    if (plan.looks_through) behind_counts = draw_behind(pass, execution);
-    TileCounts tiles = draw_tiles(pass, execution, plan.looks_through ? 0.5 : 0.0);
+    if (shades && plan.looks_through) behind_counts = draw_behind(pass, execution);
+    TileCounts tiles = draw_tiles(pass, execution, shades && plan.looks_through ? 0.5 : 0.0);
     tiles.work += behind_counts.work, tiles.fragments_shaded += behind_counts.fragments_shaded;
+    if (shades && settings.edges != EdgeChoice::none)
+        if (auto ok = draw_edges(scene, camera, settings, output, target.width, target.height, execution, isa); !ok)
+            return tl::unexpected<Error>(ok.error());
     report.ms.tiles = watch.lap();
 
     report.threads = executor.threads();

@@ -14,6 +14,7 @@
 namespace halflit {
 
 struct Renderer::Impl {
+    struct EdgeDrawing;
     /// Inputs of a plan.
     struct PlanKey {
         raster::SceneRevision scene;
@@ -37,9 +38,11 @@ struct Renderer::Impl {
     std::vector<shading::MaterialPlan> surface_materials;
     raster::ReferenceShading reference;
     raster::Behind behind;
+    std::unique_ptr<EdgeDrawing> edge_drawing;  ///< only where edges are drawn
     raster::Pool<raster::TileScratch> scratch;
 
-    Impl() { plan_memory.shadow_texels.emplace(); }
+    Impl();
+    ~Impl();
 
     Result<void> make_plan(const raster::PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings,
                            const Target& target, int tile_size);
@@ -47,6 +50,9 @@ struct Renderer::Impl {
     void make_surface(const raster::PreparedData& scene, const raster::RasterKernels& kernels, bool of_materials);
     /// Draws what is seen through glass that blurs or bends light, the first half of the progress.
     raster::TileCounts draw_behind(const raster::PicturePass& pass, const Execution& execution);
+    /// Paints Settings::edges over the finished picture.
+    Result<void> draw_edges(const raster::PreparedData& scene, const Camera& camera, const Settings& settings, const raster::Output& output,
+                            int width, int height, const Execution& execution, Isa isa);
     /// begun: the progress before.
     raster::TileCounts draw_tiles(const raster::PicturePass& pass, const Execution& execution, double begun);
 

@@ -21,6 +21,8 @@ inline constexpr std::string_view kShadowModeNames[] = {"off", "hard", "soft-spl
 inline constexpr std::string_view kSpecularNames[] = {"none", "phong", "blinn", "ggx"};
 inline constexpr std::string_view kTextureDetailNames[] = {"full", "bilinear", "nearest"};
 inline constexpr std::string_view kToneCurveNames[] = {"none", "reinhard", "aces", "neutral"};
+inline constexpr std::string_view kEdgeChoiceNames[] = {"none", "feature", "silhouette", "all"};
+inline constexpr std::string_view kHiddenEdgeNames[] = {"none", "dashed"};
 inline constexpr std::string_view kOffOn[] = {"off", "on"};
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16}, kFootprintRatios[] = {1, 2, 4, 8, 16};
 inline constexpr double kEndless = std::numeric_limits<double>::infinity();

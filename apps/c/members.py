@@ -21,7 +21,8 @@ USUAL_SETTINGS = "raster/auto_setup.cpp"
 PYTHON_SETTINGS = "apps/python/halflit/_picture_options.py"
 PYTHON_TABLE = "apps/python/halflit/_options.py"
 ENUMERATIONS = {"kAccuracyNames": "ACCURACY", "kRateNames": "RATE", "kTextureDetailNames": "DETAIL", "kSpecularNames": "SPECULAR",
-                "kShadowModeNames": "SHADOWS", "kToneCurveNames": "TONE"}
+                "kShadowModeNames": "SHADOWS", "kToneCurveNames": "TONE", "kEdgeChoiceNames": "EDGES",
+                "kHiddenEdgeNames": "HIDDEN_EDGES"}
 UNLIMITED = ("kMostScale", "kMostNumber")
 
 

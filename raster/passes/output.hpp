@@ -54,9 +54,13 @@ public:
         p[3] = alpha;
     }
 
+    [[nodiscard]] bool is_premultiplied() const { return premultiplied_; }
+
     Plane<std::uint8_t> codes;
     Plane<float> linear, depth, normal, shading_normal, albedo, position, coverage;
     Plane<std::uint32_t> instance, triangle, lights;
+    /// Colours are asked for. Otherwise nothing is shaded, and no light is looked at.
+    [[nodiscard]] bool has_colors() const { return codes || linear; }
     [[nodiscard]] bool has_planes() const { return depth || instance || triangle || coverage || has_surface(); }
     /// Planes of what is interpolated or read from textures.
     [[nodiscard]] bool has_surface() const { return normal || has_material(); }

@@ -130,6 +130,7 @@ private:
     bool transmits_ = false;  ///< light passes through some layer of the tile
     bool has_shown_ = false;  ///< some fragment of the tile has a colour of the display, and there is a tone curve
     bool has_whole_ = false;  ///< pixels that one triangle covers are written at once: there are several samples, but no layers
+    bool shades_ = true;      ///< colours are asked for
     bool joins_ = false;      ///< fragments of one smooth surface are joined
     bool direct_ = true;      ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };

@@ -14,17 +14,16 @@ TileCounts PictureTile::draw() {
     const bool empty = pass_.view.geometry.tile_is_empty(tile_), layered = !empty && has_layers();
     direct_ = samples_ == 1 && !layered;
     transmits_ = plan_.transmits && layered;
-    joins_ = plan_.options.rate == ShadingRate::pixel && pass_.view.geometry.few_vertices();
+    shades_ = pass_.output.has_colors();
+    joins_ = shades_ && plan_.options.rate == ShadingRate::pixel && pass_.view.geometry.few_vertices();
     has_whole_ = samples_ > 1 && !layered && !empty && pass_.reference == nullptr;
-    if (empty) {
-        fill_background();
-    } else {
-        draw_visibility(pass_.view, tile_, scratch_, counts_);
-        clear();
-    }
+    if (!empty) draw_visibility(pass_.view, tile_, scratch_, counts_);
+    if (shades_ && empty) fill_background();
+    if (shades_ && !empty) clear();
     if (pass_.output.has_planes()) write_planes(empty);
     if (empty) return counts_;
     shade_visible();
+    if (!shades_) return counts_;
     if (layered) blend_layers();
     if (!direct_) resolve();
     return counts_;
@@ -35,7 +34,7 @@ void PictureTile::shade_visible() {
     queue.begin(pass_.view.materials.size());
     std::fill(std::begin(scratch_.materials), std::end(scratch_.materials), TileScratch::MaterialOf{});
     if (samples_ > 1 && joins_) scratch_.pairs = {};
-    if (plan_.cells) {
+    if (plan_.cells && shades_) {
         constexpr int kSide = shading::kCellSide;  // tiles begin at cells
         for (int y0 = 0; y0 < rect_.height; y0 += kSide)
             for (int x0 = 0; x0 < rect_.width; x0 += kSide) {
@@ -107,7 +106,7 @@ int PictureTile::material_of(std::uint32_t id) {
 }
 
 void PictureTile::flush_full(FragmentList*& list) {
-    if (has_cells(list->material))
+    if (shades_ && has_cells(list->material))
         list = &scratch_.queue.close(*list);
     else
         flush(*list);
@@ -115,8 +114,10 @@ void PictureTile::flush_full(FragmentList*& list) {
 
 void PictureTile::flush(FragmentList& list) {
     if (pass_.surface != nullptr) write_surface(list);
-    shade(list);
-    write(list, scratch_.block);
+    if (shades_) {
+        shade(list);
+        write(list, scratch_.block);
+    }
     list.count = 0;
 }
 

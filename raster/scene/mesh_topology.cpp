@@ -1,11 +1,10 @@
 #include "raster/scene/mesh_topology.hpp"
 
-#include "sh/time_limit.hpp"
+#include "raster/scene/surface_edges.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
-#include <utility>
+#include <span>
 #include <vector>
 
 namespace halflit::raster {
@@ -34,61 +33,25 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Edges, each by the lower number of its two places: those of place p lie from begin[p] to begin[p + 1]. An edge has the number of its
-/// higher place in the upper 32 bits, and below it the corner at which a triangle runs along it.
-struct EdgeLists {
-    std::vector<std::uint32_t> begin;
-    std::vector<std::uint64_t> edges;
-
-    explicit EdgeLists(const WeldedSurface& surface) : begin(surface.places().size() + 1), edges(surface.corners().size()) {
-        const std::vector<std::uint32_t>& corners = surface.corners();
-        TimeCheck check;
-        const auto each = [&](const auto& visit) {
-            for (std::uint32_t first = 0; first < corners.size(); first += 3)
-                for (std::uint32_t k = 0; k < 3; ++k) {
-                    check();
-                    const auto [low, high] = std::minmax(corners[first + k], corners[first + (k + 1) % 3]);
-                    visit(low, high, first + k);
-                }
-        };
-        each([&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++begin[low]; });
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());  // the ends; filling from there leaves the beginnings
-        each(
-            [&](std::uint32_t low, std::uint32_t high, std::uint32_t corner) { edges[--begin[low]] = std::uint64_t{high} << 32 | corner; });
-    }
-};
-
 }  // namespace
 
 SurfaceTopology topology_of(const WeldedSurface& surface) {
     SurfaceTopology found;
     const std::vector<std::uint32_t>& corners = surface.corners();
     if (corners.empty()) return found;
-    EdgeLists lists(surface);
     TriangleSets bodies(corners.size() / 3);
     found.balanced = true;
-    TimeCheck check;
-    for (std::uint32_t place = 0; place < surface.places().size(); ++place) {
-        std::uint64_t* const begin = lists.edges.data() + lists.begin[place];
-        std::uint64_t* const end = lists.edges.data() + lists.begin[place + 1];
-        std::sort(begin, end, timed_less(std::less<>()));
-        for (const std::uint64_t* edge = begin; edge != end;) {
-            const std::uint64_t high = *edge >> 32;
-            const auto first = static_cast<std::uint32_t>(*edge);
-            std::uint64_t uses = 0, upwards = 0;  // upwards: from the lower place to the higher one
-            for (; edge != end && *edge >> 32 == high; ++edge) {
-                check();
-                const auto corner = static_cast<std::uint32_t>(*edge);
-                ++uses;
-                upwards += corners[corner] == place ? 1 : 0;
-                if (uses > 1) bodies.join(first / 3, corner / 3);
-            }
-            found.open_edges += uses == 1 ? 1 : 0;
-            found.flipped_edges += uses == 2 && upwards != 1 ? 1 : 0;
-            found.crowded_edges += uses > 2 ? 1 : 0;
-            found.balanced &= 2 * upwards == uses;
+    for_each_edge(surface, [&](std::uint32_t low, std::span<const EdgeUse> uses) {
+        std::size_t upwards = 0;  // from the lower place to the higher one
+        for (const EdgeUse& use : uses) {
+            upwards += corners[use.corner()] == low ? 1 : 0;
+            bodies.join(uses[0].triangle(), use.triangle());
         }
-    }
+        found.open_edges += uses.size() == 1 ? 1 : 0;
+        found.flipped_edges += uses.size() == 2 && upwards != 1 ? 1 : 0;
+        found.crowded_edges += uses.size() > 2 ? 1 : 0;
+        found.balanced &= 2 * upwards == uses.size();
+    });
     found.bodies = bodies.count();
     return found;
 }

@@ -9,10 +9,6 @@
 namespace halflit::raster {
 namespace {
 
-Vec3d placed_in_double(const Mat4& m, Vec3f p) {
-    return ((axis(m, 0) * double{p.x} + axis(m, 1) * double{p.y}) + axis(m, 2) * double{p.z}) + axis(m, 3);
-}
-
 bool finite_as_float(Vec3d p) {
     constexpr double kMost = std::numeric_limits<float>::max();
     const Vec3d a = absolute(p);
@@ -20,6 +16,10 @@ bool finite_as_float(Vec3d p) {
 }
 
 }  // namespace
+
+Vec3d placed_in_double(const Mat4& m, Vec3f p) {
+    return ((axis(m, 0) * double{p.x} + axis(m, 1) * double{p.y}) + axis(m, 2) * double{p.z}) + axis(m, 3);
+}
 
 void WeldedSurface::add(const Mesh& mesh, const Mat4& world_from_object) {
     if (mesh.topology != Topology::triangles) return;
@@ -36,6 +36,7 @@ void WeldedSurface::add(const Mesh& mesh, const Mat4& world_from_object) {
     TimeCheck check;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         check();
+        const std::uint32_t number = triangles_++;
         Vec3d at[3];
         for (std::size_t k = 0; k < 3; ++k) at[k] = placed_in_double(world_from_object, mesh.positions[mesh.indices[i + k]]);
         if (!finite_as_float(at[0]) || !finite_as_float(at[1]) || !finite_as_float(at[2])) {
@@ -44,10 +45,12 @@ void WeldedSurface::add(const Mesh& mesh, const Mat4& world_from_object) {
         }
         std::uint32_t place[3];
         for (std::size_t k = 0; k < 3; ++k) place[k] = place_of(mesh.indices[i + k], at[k]);
-        if (place[0] == place[1] || place[1] == place[2] || place[2] == place[0])
+        if (place[0] == place[1] || place[1] == place[2] || place[2] == place[0]) {
             ++collapsed_;
-        else
+        } else {
             corners_.insert(corners_.end(), {place[0], place[mirrored ? 2 : 1], place[mirrored ? 1 : 2]});
+            numbers_.push_back(number);
+        }
     }
 }
 

@@ -9,6 +9,9 @@
 
 namespace halflit::raster {
 
+/// A point of a mesh in the world.
+[[nodiscard]] Vec3d placed_in_double(const Mat4& world_from_object, Vec3f p);
+
 class WeldedSurface {
 public:
     /// Adds a mesh's triangles. Vertices are one if their world positions, computed in double, are equal. Triangles of a mirrored
@@ -20,6 +23,10 @@ public:
     [[nodiscard]] const std::vector<Vec3d>& places() const { return places_; }
     /// Three indices into places() for each triangle that has three different ones.
     [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return corners_; }
+    /// For each triangle of corners(), its number among all that were added.
+    [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+    /// Triangles that were added, kept or not.
+    [[nodiscard]] std::uint32_t triangles() const { return triangles_; }
     /// Triangles with two corners at one place.
     [[nodiscard]] std::uint64_t collapsed() const { return collapsed_; }
     /// Triangles with a corner that is not finite in float32.
@@ -28,7 +35,8 @@ public:
 private:
     PlaceTable<Vec3d> table_;
     std::vector<Vec3d> places_;
-    std::vector<std::uint32_t> corners_;
+    std::vector<std::uint32_t> corners_, numbers_;
+    std::uint32_t triangles_ = 0;
     std::uint64_t collapsed_ = 0, not_finite_ = 0;
 };
 

@@ -315,11 +315,18 @@ Positional scene_argument(RenderOptions& o, bool required) {
 
 namespace {
 
+FlagGroup line_flags(RenderOptions& o) {
+    return {"Lines",
+            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)", [&o](const std::string& text) {
+                  return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
+              }}}};
+}
+
 /// The flags that decide the picture and its speed.
 std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
-    std::vector<FlagGroup> groups{picture_flags(o, usual),    camera_flags(o),        pose_flags(o),    light_flags(o),
-                                  environment_flags(o),       shadow_flags(o),        surface_flags(o), {"Accuracy", {}},
-                                  machine_flags(o.execution), untrusted_file_flags(o)};
+    std::vector<FlagGroup> groups{picture_flags(o, usual), camera_flags(o),  pose_flags(o), light_flags(o),   environment_flags(o),
+                                  shadow_flags(o),         surface_flags(o), line_flags(o), {"Accuracy", {}}, machine_flags(o.execution),
+                                  untrusted_file_flags(o)};
     for (FlagGroup& group : groups) add_setting_flags(group, o.settings, o.given_settings);
     return groups;
 }

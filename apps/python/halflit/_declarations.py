@@ -68,7 +68,8 @@ STRUCTS = {
         exposure; int32_t tone_curve; float point_size; float line_width; int32_t accuracy; int32_t texture_detail; int32_t
         anisotropy; int32_t specular; int32_t normalize_specular; float normal_scale; int32_t shading_rate; int32_t
         environment_bands; int32_t shadows; int32_t shadow_size; int32_t soft_shadow_maps; float shadow_fade; int32_t sky_shadows;
-        int32_t shadow_terminator_offset; float emission_scale; int32_t reserved[1];
+        int32_t shadow_terminator_offset; float emission_scale; int32_t edges; int32_t hidden_edges; float edge_angle_deg; float
+        edge_width; int32_t reserved[1];
 """,
     "halflit_picture_request": """
         size_t size; const halflit_camera* camera; const char* scene_camera; double studio_turn_rad; int32_t width, height;
@@ -159,6 +160,12 @@ CONSTANTS = {
     "HALFLIT_TONE_REINHARD": 1,
     "HALFLIT_TONE_ACES": 2,
     "HALFLIT_TONE_NEUTRAL": 3,
+    "HALFLIT_EDGES_NONE": 0,
+    "HALFLIT_EDGES_FEATURE": 1,
+    "HALFLIT_EDGES_SILHOUETTE": 2,
+    "HALFLIT_EDGES_ALL": 3,
+    "HALFLIT_HIDDEN_EDGES_NONE": 0,
+    "HALFLIT_HIDDEN_EDGES_DASHED": 1,
     "HALFLIT_STUDIO_FOR_DARK": 0,
     "HALFLIT_STUDIO_ALWAYS": 1,
     "HALFLIT_STUDIO_NEVER": 2,

@@ -53,6 +53,10 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "sky_shadows": ("sky_shadows", "int"),
     "shadow_terminator_offset": ("shadow_terminator_offset", "bool"),
     "emission_scale": ("emission_scale", "float"),
+    "edges": ("edges", "EDGES"),
+    "hidden_edges": ("hidden_edges", "HIDDEN_EDGES"),
+    "edge_angle_deg": ("edge_angle_deg", "float"),
+    "edge_width": ("edge_width", "float"),
 }
 KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "lobe"))
 

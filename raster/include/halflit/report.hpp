@@ -72,7 +72,7 @@ struct RenderReport {
         double cull = 0;                      ///< instances and clusters out of view or facing away
         double transform = 0;                 ///< vertices to the window, vertex records, light at vertices
         double bin = 0;                       ///< triangle set-up and tile lists
-        double tiles = 0;                     ///< visibility, shading, blending, resolving
+        double tiles = 0;                     ///< visibility, shading, blending, resolving, lines of edges
     } ms;                                     ///< the steps' times
     double total_ms = 0;                      ///< of the whole call
     int threads = 1;                          ///< threads that the frame could use; 0: a host's loop

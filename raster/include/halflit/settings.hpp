@@ -8,6 +8,7 @@
 #include "halflit/shading.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -19,6 +20,17 @@ struct Region {
     int width = 0, height = 0;  ///< it must lie inside the picture
     friend bool operator==(const Region&, const Region&) = default;
 };
+
+/// Edges of a model that are drawn as lines over the picture.
+enum class EdgeChoice : std::uint8_t {
+    none,
+    feature,     ///< where a surface ends, where it bends by more than Settings::edge_angle_deg, and outlines
+    silhouette,  ///< where a surface ends, and outlines: where one side faces the viewer and the other does not
+    all          ///< of every triangle
+};
+
+/// Edges behind surfaces: left out, or dashed, thinner and paler.
+enum class HiddenEdges : std::uint8_t { none, dashed };
 
 /// Everything besides scene, camera and size that decides a pixel.
 struct Settings {
@@ -45,7 +57,14 @@ struct Settings {
     /// number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024; 0, or
     /// without shadows: they cast none
     int sky_shadows = 0;
-    bool shadow_terminator_offset = false;  ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
+    /// Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide them, glass
+    /// does not; lines lie on surfaces that they touch. Points at one place are one, as files split vertices.
+    EdgeChoice edges = EdgeChoice::none;
+    HiddenEdges hidden_edges = HiddenEdges::none;  ///< edges behind surfaces
+    float edge_angle_deg = 30.0f;                  ///< between the normals of two triangles, from which on their edge is a line: 0 to 180
+    float edge_width = 1.5f;                       ///< of the lines, pixels, 1/4 to 64; below 1 they are paler instead
+    Vec3f edge_color_linear{0, 0, 0};              ///< of the lines, linear; no light, exposure or tone curve changes it
+    bool shadow_terminator_offset = false;         ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 

@@ -15,9 +15,9 @@ namespace halflit {
 enum class PixelFormat : std::uint8_t { rgba8, bgra8 };
 
 /// The caller's memory for a picture: 8-bit codes, linear light before the tone curve, or both, and planes of what was seen. A null
-/// pointer: that output is not made. Row 0 is the top row. The row at y begins at the pointer plus y times the stride in bytes. A stride
-/// may be larger than a row, for padding; what lies between rows is not touched. A stride of 0 means that rows follow one another. Strides
-/// are at most 2^31 - 1, and never negative.
+/// pointer: that output is not made; where neither codes nor light are, nothing is shaded and no shadow map is drawn. Row 0 is the top row.
+/// The row at y begins at the pointer plus y times the stride in bytes. A stride may be larger than a row, for padding; what lies between
+/// rows is not touched. A stride of 0 means that rows follow one another. Strides are at most 2^31 - 1, and never negative.
 struct Target {
     int width = 0, height = 0;       ///< pixels, of the whole picture: what the camera sees
     std::uint8_t* pixels = nullptr;  ///< sRGB codes, four bytes a pixel in the order of `format`; alpha is linear

@@ -508,6 +508,10 @@ enum { HALFLIT_SHADOWS_OFF = 0, HALFLIT_SHADOWS_HARD = 1, HALFLIT_SHADOWS_SOFT_S
 
 /// Tone curves: light above 1 is cut off; light over 1 + its luminance; film-like contrast; Khronos PBR Neutral.
 enum { HALFLIT_TONE_NONE = 0, HALFLIT_TONE_REINHARD = 1, HALFLIT_TONE_ACES = 2, HALFLIT_TONE_NEUTRAL = 3 };
+/// Edges that are drawn as lines. FEATURE: where a surface ends, where it bends by more than edge_angle_deg, and outlines. SILHOUETTE:
+/// where a surface ends, and outlines. ALL: of every triangle.
+enum { HALFLIT_EDGES_NONE = 0, HALFLIT_EDGES_FEATURE = 1, HALFLIT_EDGES_SILHOUETTE = 2, HALFLIT_EDGES_ALL = 3 };
+enum { HALFLIT_HIDDEN_EDGES_NONE = 0, HALFLIT_HIDDEN_EDGES_DASHED = 1 };
 
 /// A part of a picture, in pixels; width 0: all of it.
 typedef struct halflit_region {
@@ -576,6 +580,16 @@ typedef struct halflit_settings {
     int32_t shadow_terminator_offset;
     /// factor on the light that all surfaces emit (not on colours of unlit materials) (1)
     float emission_scale;
+    /// HALFLIT_EDGES: Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of
+    /// triangles hide them, glass does not; lines lie on surfaces that they touch. Points at one place are one, as files split
+    /// vertices. (none)
+    int32_t edges;
+    /// HALFLIT_HIDDEN_EDGES: edges behind surfaces (none)
+    int32_t hidden_edges;
+    /// between the normals of two triangles, from which on their edge is a line: 0 to 180 (30)
+    float edge_angle_deg;
+    /// of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)
+    float edge_width;
     int32_t reserved[1];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);

@@ -1,0 +1,111 @@
+#include "raster/scene/model_edges.hpp"
+
+#include "raster/scene/instance_material.hpp"
+#include "raster/scene/surface_edges.hpp"
+#include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::raster {
+namespace {
+
+/// The unit normal of a triangle; 0 if it has no area.
+Vec3d normal_of(const WeldedSurface& surface, std::uint32_t face) {
+    const std::uint32_t* const c = &surface.corners()[3 * std::size_t{face}];
+    const Vec3d& a = surface.places()[c[0]];
+    const Vec3d n = cross(surface.places()[c[1]] - a, surface.places()[c[2]] - a);
+    const double size = length(n);
+    return size > 0.0 ? n * (1.0 / size) : Vec3d{};
+}
+
+/// The triangles along one edge, with their directions and normals.
+class EdgeFaces {
+public:
+    EdgeFaces(const WeldedSurface& surface, const std::vector<Vec3d>& normals, std::uint32_t low, std::span<const EdgeUse> uses,
+              double least_cosine)
+        : surface_(surface), normals_(normals), low_(low), uses_(uses), least_cosine_(least_cosine) {}
+
+    [[nodiscard]] EdgeKind kind() const {
+        if (uses_.size() == 1) return EdgeKind::border;
+        if (uses_.size() == 2) return continues(uses_[0], uses_[1]) ? EdgeKind::smooth : EdgeKind::crease;
+        constexpr std::size_t kMostCompared = 16;  // so that an edge of a million triangles takes no million squared
+        const auto some = uses_.first(std::min(uses_.size(), kMostCompared));
+        const auto goes_on = [&](const EdgeUse& a) {
+            return std::any_of(some.begin(), some.end(), [&](const EdgeUse& b) { return upward(a) != upward(b) && continues(a, b); });
+        };
+        return std::all_of(some.begin(), some.end(), goes_on) ? EdgeKind::smooth : EdgeKind::crease;
+    }
+
+private:
+    [[nodiscard]] bool upward(const EdgeUse& use) const { return surface_.corners()[use.corner()] == low_; }
+    /// The surface goes on from one triangle to the other without a bend. Two that run along the edge in one direction face opposite ways:
+    /// one of them is turned. A triangle without area bends nothing.
+    [[nodiscard]] bool continues(const EdgeUse& a, const EdgeUse& b) const {
+        const Vec3d &of_a = normals_[a.triangle()], &of_b = normals_[b.triangle()];
+        if (of_a == Vec3d{} || of_b == Vec3d{}) return true;
+        const double cosine = dot(of_a, of_b);
+        return (upward(a) != upward(b) ? cosine : -cosine) >= least_cosine_;
+    }
+
+    const WeldedSurface& surface_;
+    const std::vector<Vec3d>& normals_;
+    std::uint32_t low_;
+    std::span<const EdgeUse> uses_;
+    double least_cosine_;
+};
+
+}  // namespace
+
+void ModelEdges::add_surface(const WeldedSurface& surface, double least_cosine) {
+    const auto first_place = static_cast<std::uint32_t>(places_.size());
+    places_.insert(places_.end(), surface.places().begin(), surface.places().end());
+    const auto first_face = static_cast<std::uint32_t>(corners_.size() / 3);
+    corners_.resize(corners_.size() + 3 * std::size_t{surface.triangles()});
+    neighbours_.resize(corners_.size(), kNone);
+    const std::vector<std::uint32_t>&corners = surface.corners(), &numbers = surface.numbers();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        corners_[3 * (std::size_t{first_face} + numbers[i / 3]) + i % 3] = first_place + corners[i];
+    std::vector<Vec3d> normals(numbers.size());
+    TimeCheck check;
+    for (std::uint32_t face = 0; face < normals.size(); ++face) check(), normals[face] = normal_of(surface, face);
+
+    for_each_edge(surface, [&](std::uint32_t low, std::span<const EdgeUse> uses) {
+        const auto face = [&](const EdgeUse& use) { return first_face + numbers[use.triangle()]; };
+        if (uses.size() == 2)
+            for (const int k : {0, 1}) neighbours_[3 * std::size_t{face(uses[k])} + uses[k].corner() % 3] = face(uses[1 - k]);
+        edges_.push_back({first_place + low,
+                          first_place + uses[0].high(),
+                          {face(uses.front()), face(uses.back())},
+                          EdgeFaces(surface, normals, low, uses, least_cosine).kind()});
+    });
+}
+
+void ModelEdges::find(const Scene& scene, double crease_deg) {
+    *this = {};
+    const double least_cosine = sin_cos(crease_deg * (kPi / 180.0)).cos;
+    const auto counts = [&](const Instance& instance) {
+        return counts_for_views(scene, instance) && triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]) > 0;
+    };
+    WeldedSurface surface;
+    const Mat4* place = nullptr;
+    std::uint32_t faces = 0;
+    for (const Instance& instance : scene.instances) {
+        first_face_.push_back(counts(instance) ? faces : kNone);
+        if (!counts(instance)) continue;
+        const Material* const material = material_of(scene, instance);
+        if (place != nullptr && !(*place == instance.world_from_object)) {
+            add_surface(surface, least_cosine);
+            surface = {};
+        }
+        place = &instance.world_from_object;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        surface.add(mesh, instance.world_from_object);
+        faces += static_cast<std::uint32_t>(triangles_of(mesh));
+        single_sided_.resize(faces, material == nullptr || !material->double_sided);
+    }
+    if (place != nullptr) add_surface(surface, least_cosine);
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,60 @@
+// Edges of a scene's surfaces that drawings show as lines: where a surface ends, where it bends, and where it may turn away from a viewer.
+#pragma once
+
+#include "halflit/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace halflit::raster {
+
+enum class EdgeKind : std::uint8_t {
+    border,  ///< of one triangle
+    crease,  ///< its triangles meet at an angle above the limit, or there are more than two that do not continue each other
+    smooth   ///< the surface goes on; an outline where one side faces the viewer and the other does not
+};
+
+/// An edge between two places. Its triangles run along it from `from` to `to`, or back.
+struct ModelEdge {
+    std::uint32_t from, to;  ///< indices into ModelEdges::places()
+    std::uint32_t face[2];   ///< triangles, by their numbers over all instances; for a border both are its one triangle
+    EdgeKind kind;
+};
+
+/// Edges of all visible instances with triangles but shadow catchers. Instances that follow each other with equal transforms are one
+/// surface, as the meshes of one part are; vertices at one place are one.
+class ModelEdges {
+public:
+    /// Linear time, 0.15 s for a million triangles. Requires: a scene that was checked. crease_deg: in [0, 180].
+    void find(const Scene& scene, double crease_deg);
+
+    [[nodiscard]] const std::vector<Vec3d>& places() const { return places_; }  ///< world space
+    [[nodiscard]] const std::vector<ModelEdge>& edges() const { return edges_; }
+
+    static constexpr std::uint32_t kNone = ~0u;
+    /// The number of an instance's triangle over all instances; kNone for an instance without edges.
+    [[nodiscard]] std::uint32_t face(std::uint32_t instance, std::uint32_t triangle) const {
+        return first_face_[instance] == kNone ? kNone : first_face_[instance] + triangle;
+    }
+    /// Corners of a triangle that an edge has, indices into places(), counter-clockwise seen from outside.
+    [[nodiscard]] const std::uint32_t* corners(std::uint32_t face) const { return &corners_[3 * std::size_t{face}]; }
+    /// The triangle on the other side of the edge that begins at corner k; kNone where there is none, or more than one.
+    [[nodiscard]] std::uint32_t neighbour(std::uint32_t face, int k) const {
+        return neighbours_[3 * std::size_t{face} + static_cast<std::size_t>(k)];
+    }
+    /// The triangle is drawn from one side alone.
+    [[nodiscard]] bool single_sided(std::uint32_t face) const { return single_sided_[face]; }
+
+private:
+    void add_surface(const class WeldedSurface& surface, double least_cosine);
+
+    std::vector<Vec3d> places_;
+    std::vector<std::uint32_t> corners_;     ///< three for each triangle of all instances; those of no area have three zeros
+    std::vector<std::uint32_t> neighbours_;  ///< three for each triangle
+    std::vector<std::uint32_t> first_face_;  ///< of each instance
+    std::vector<bool> single_sided_;         ///< of each triangle
+    std::vector<ModelEdge> edges_;
+};
+
+}  // namespace halflit::raster
