@@ -38,7 +38,7 @@ Json measures_of(const std::string& file, const std::vector<std::string>& flags 
 }  // namespace
 
 TEST_CASE("info: measures are in the file's axes and unit, where it is moved and turned too", "[cli][measures]") {
-    // Far boxes are drawn at the origin, large and small ones scaled by a power of two.
+    // The far box is drawn at the origin.
     for (const std::vector<double>& low : {std::vector<double>{0, 0, 0}, {4000000.25, 5000000, 120}})
         for (const char* up : {"x", "y", "z", "-x", "-y", "-z"}) {
             INFO(low[0] << " " << up);

@@ -22,7 +22,8 @@ double parsed(std::string_view text) {
     return value + 0.0;  // no -0
 }
 
-double rounded(double value) { return parsed(fmt::format("{:.{}g}", value, kDigits)); }
+/// Null for a number that is not finite: the square or cube of a file's unit may be above the range of double.
+Json rounded(double value) { return std::isfinite(value) ? Json(parsed(fmt::format("{:.{}g}", value, kDigits))) : Json(nullptr); }
 
 /// Coordinates, rounded to that digit which is the seventh of the size.
 Json point_json(Vec3d p, double size) {
@@ -69,7 +70,7 @@ Result<Json> measures_json(const RenderJob& job) {
                 {"max", point_json(max, largest)},
                 {"size", point_json(size, largest)},
                 {"area", rounded(found.area * (unit * unit))},
-                {"volume", found.watertight ? Json(rounded(found.volume * ((unit * unit) * unit))) : Json(nullptr)},
+                {"volume", found.watertight ? rounded(found.volume * ((unit * unit) * unit)) : Json(nullptr)},
                 {"center", point_json(placement.out(found.center), largest)},
                 {"triangles", found.triangles},
                 {"degenerate_triangles", found.degenerate_triangles},
