@@ -155,7 +155,8 @@ Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) 
 
 Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
     if (request.pixel) {
-        auto story = tell_pixel(job_, probe_, request.pixel->x, request.pixel->y);
+        auto story = explain_pixel(probe_, *job_.prepared, job_.light, job_.camera, job_.settings, {job_.width, job_.height},
+                                   request.pixel->x, request.pixel->y, job_.timed_execution());
         if (!story) return tl::unexpected(story.error());
         frame.story = std::move(*story);
         return {};

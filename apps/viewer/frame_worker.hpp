@@ -3,8 +3,8 @@
 
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/viewer/controls.hpp"
-#include "apps/viewer/pixel_story.hpp"
 #include "apps/viewer/refinement.hpp"
+#include "halflit/explain.hpp"
 
 #include <atomic>
 #include <condition_variable>

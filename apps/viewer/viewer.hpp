@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/halflit/render/render_job.hpp"
-#include "apps/viewer/pixel_story.hpp"
 #include "apps/viewer/rehearsal.hpp"
+#include "halflit/explain.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -245,6 +245,12 @@ TEST_CASE("schema: bench, info, diff, golden and trade have the keys that their 
     check_report("trade", contents(folder.file("trade/trade.json")));
 }
 
+TEST_CASE("schema: explain has the keys that its schema describes", "[cli][schema]") {
+    check_report("explain", output_of({"explain", "demo", "--size", "64x36", "--json", "--pixel", "32,20", "--pixel", "0,0", "--pixel",
+                                       "40,30", "--max-error", "1"}));
+    check_report("explain", output_of({"explain", "sphere:100", "--size", "16", "--json", "--pixel", "8,8", "--background", "#ff0000"}));
+}
+
 TEST_CASE("schema: the report of view has the keys that its schema describes", "[cli][schema]") {
     RunSettings settings;
     settings.environment = {{"SDL_VIDEODRIVER", "dummy"}};

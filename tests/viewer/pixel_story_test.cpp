@@ -1,4 +1,5 @@
-#include "apps/viewer/pixel_story.hpp"
+#include "apps/halflit/report/pixel_story_text.hpp"
+#include "halflit/explain.hpp"
 
 #include "tests/viewer/jobs.hpp"
 
@@ -7,13 +8,14 @@
 
 using namespace halflit;
 using namespace halflit::test;
-using namespace halflit::viewer;
+using halflit::cli::story_text;
 
 namespace {
 
 PixelStory story_of(OpenedJob& opened, int x, int y) {
     Renderer renderer;
-    auto story = tell_pixel(opened.job, renderer, x, y);
+    const cli::RenderJob& job = opened.job;
+    auto story = explain_pixel(renderer, *job.prepared, job.light, job.camera, job.settings, {job.width, job.height}, x, y, job.execution);
     if (!story) FAIL(story.error().message);
     return std::move(*story);
 }
@@ -28,12 +30,12 @@ TEST_CASE("pixel story: the light of all sources adds up to the pixel", "[viewer
         for (const auto& [x, y] : {std::pair{30, 32}, {32, 10}, {10, 40}}) {
             const PixelStory story = story_of(opened, x, y);
             INFO(sky << " " << x << " " << y << "\n" << story_text(story));
-            REQUIRE(story.hit);
+            REQUIRE(story.shows == PixelShows::surface);
             CHECK(story.no_reference.empty());
             for (std::size_t c = 0; c < 3; ++c) {
-                double sum = story.around[c] + story.emitted[c];
+                double sum = story.around[c] + story.emitted[c] + story.background[c];
                 for (const LightShare& share : story.shares) sum += share.linear[c];
-                CHECK(sum == Approx(story.sum[c]).epsilon(1e-4).margin(1e-6));  // float32 sums in another order
+                CHECK(sum == Approx(story.linear[c] * story.alpha).epsilon(1e-4).margin(1e-6));  // float32 sums in another order
             }
         }
     }
@@ -43,14 +45,14 @@ TEST_CASE("pixel story: the point lies in the triangle that is named", "[viewer]
     OpenedJob opened = open_job("sphere:2000", {});
     for (int x = 16; x < 48; x += 5) {
         const PixelStory story = story_of(opened, x, 24);
-        REQUIRE(story.hit);
+        REQUIRE(story.shows == PixelShows::surface);
         REQUIRE(story.corners.size() == 3);
         const Vec3d a = story.corners[0], b = story.corners[1], c = story.corners[2], p = story.position;
         // The three parts fill the whole triangle, and no more.
         CHECK(area(a, b, p) + area(b, c, p) + area(c, a, p) == Approx(area(a, b, c)).epsilon(1e-3));
         CHECK(length(p) == Approx(1.0).epsilon(1e-2));  // on the unit sphere
         CHECK(length(story.normal - p * (1.0 / length(p))) < 1e-2);
-        CHECK(story.material == "clay");
+        CHECK(story.material.name == "clay");
     }
 }
 
@@ -79,7 +81,7 @@ TEST_CASE("pixel story: a wrapped lobe has light beyond the terminator, where La
     for (int x = 16; x < 48; ++x) {
         const PixelStory story = story_of(opened, x, 34);
         for (const LightShare& share : story.shares) {
-            if (!story.hit || share.cosine > -0.1 || share.cosine < -0.8) continue;
+            if (story.shows != PixelShows::surface || share.cosine > -0.1 || share.cosine < -0.8) continue;
             found = true;
             CHECK(share.lambert == 0.0);
             CHECK(share.lobe == Approx((share.cosine + 1) / 2));
@@ -112,6 +114,6 @@ TEST_CASE("pixel story: of many lamps the nearest are told, and a background has
     CHECK(story.lights_left_out == 200 - kMostShares);
     OpenedJob sphere = open_job("sphere:2000", {});
     const PixelStory nothing = story_of(sphere, 0, 0);
-    CHECK_FALSE(nothing.hit);
+    CHECK(nothing.shows == PixelShows::background);
     CHECK(story_text(nothing).find("no surface") != std::string::npos);
 }

@@ -9,6 +9,7 @@ namespace halflit::cli {
 [[nodiscard]] Command view_command();
 [[nodiscard]] Command bench_command();
 [[nodiscard]] Command info_command();
+[[nodiscard]] Command explain_command();
 [[nodiscard]] Command diff_command();
 [[nodiscard]] Command sheet_command();
 [[nodiscard]] Command plan_command();

@@ -1,12 +1,12 @@
 // halflit view: shows a scene in a window, where it can be turned and its settings be changed.
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/flags/plan_names.hpp"
 #include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/median.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/render/render_job.hpp"
+#include "apps/halflit/report/pixel_story_json.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/viewer/viewer.hpp"
 
@@ -25,28 +25,7 @@ struct ViewOptions : RenderOptions {
     std::string report;
 };
 
-Json pixel_json(const viewer::PixelStory& story) {
-    Json lights = Json::array();
-    for (const viewer::LightShare& share : story.shares)
-        lights.push_back({{"light", share.index},
-                          {"type", kind_of(share.type).name},
-                          {"cosine", share.cosine},
-                          {"lobe", share.lobe},
-                          {"unhidden", share.unhidden ? Json(*share.unhidden) : Json()},
-                          {"linear", share.linear}});
-    Json pixel{{"at", {story.x, story.y}}, {"codes", story.codes}};
-    pixel["surface"] = Json();
-    if (story.hit)
-        pixel["surface"] = {{"triangle", story.triangle}, {"mesh", story.mesh}, {"instance", story.instance}, {"material", story.material}};
-    pixel["lights"] = std::move(lights);
-    pixel["around"] = story.around;
-    pixel["emitted"] = story.emitted;
-    pixel["linear"] = story.sum;
-    pixel["error_codes"] = story.no_reference.empty() ? Json(story.error_codes) : Json();
-    return pixel;
-}
-
-Json view_report(const ViewOptions& options, const viewer::ViewerSummary& summary) {
+Json view_report(const ViewOptions& options, const viewer::ViewerSummary& summary, const NameOfInstance& name) {
     Json report = report_head("view");
     report["scene"] = options.scene;
     report["size"] = {summary.width, summary.height};
@@ -65,7 +44,7 @@ Json view_report(const ViewOptions& options, const viewer::ViewerSummary& summar
         report["draw_worst_ms"] = *std::max_element(summary.draw_ms.begin(), summary.draw_ms.end());
         report["largest_divisor"] = *std::max_element(summary.divisors.begin(), summary.divisors.end());
     }
-    if (summary.story) report["pixel"] = pixel_json(*summary.story);
+    if (summary.story) report["pixel"] = story_json(*summary.story, name);
     return report;
 }
 
@@ -87,21 +66,19 @@ Result<int> run_view(ViewOptions options) {
                     "--click: expected a pixel of the " + std::to_string(job->width) + "x" + std::to_string(job->height) + " picture");
     for (const std::string& warning : job->warnings) print_warning(warning);
     for (const std::string& choice : job->choices) print_detail(choice);
+    const NameOfInstance name = job->source.node_name;
     const auto seen = viewer::run_viewer(std::move(*job), options, options.window);
     if (!seen) return tl::unexpected(seen.error());
     if (options.report.empty()) return 0;
-    if (const auto written = write_text(options.report, to_text(view_report(options, *seen))); !written)
+    if (const auto written = write_text(options.report, to_text(view_report(options, *seen, name))); !written)
         return tl::unexpected(written.error());
     return 0;
 }
 
 Result<void> read_click(std::optional<viewer::RehearsalPlan::Pixel>& pixel, const std::string& text) {
-    const std::size_t comma = text.find(',');
-    const auto number = [&](std::string_view part) { return parse_int(part, 0, 32767); };
-    const auto x = number(std::string_view(text).substr(0, comma));
-    const auto y = number(comma == std::string::npos ? "" : std::string_view(text).substr(comma + 1));
-    if (!x || !y) return fail(ErrorCode::usage, "expected a pixel X,Y, found '" + text + "'");
-    pixel = {static_cast<int>(*x), static_cast<int>(*y)};
+    const auto place = parse_pixel(text);
+    if (!place) return tl::unexpected(place.error());
+    pixel = {place->x, place->y};
     return {};
 }
 

@@ -31,6 +31,11 @@ inline constexpr std::string_view kStageNames[kStageCount] = {"base colour textu
                                                               "iridescence",
                                                               "anisotropy"};
 
+constexpr std::string_view alpha_mode_name(AlphaMode mode) {
+    constexpr std::string_view kNames[] = {"opaque", "mask", "blend"};
+    return kNames[static_cast<std::size_t>(mode)];
+}
+
 using raster::kAccuracyNames;
 constexpr std::string_view accuracy_name(Accuracy accuracy) { return kAccuracyNames[static_cast<std::size_t>(accuracy)]; }
 

@@ -171,6 +171,17 @@ Result<PictureSize> parse_size(std::string_view text) {
     return PictureSize{static_cast<int>(*width), static_cast<int>(*height)};
 }
 
+Result<PixelPlace> parse_pixel(std::string_view text) {
+    const auto parts = split(text, ",");
+    int values[2] = {};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto value = parse_int(parts[i], 0, std::numeric_limits<int>::max());
+        if (parts.size() != 2 || !value) return expected("a pixel X,Y from the upper left corner, as in 32,24", text);
+        values[i] = static_cast<int>(*value);
+    }
+    return PixelPlace{values[0], values[1]};
+}
+
 Result<Region> parse_region(std::string_view text) {
     const auto parts = split(text, ",");
     int values[4] = {};

@@ -35,6 +35,14 @@ inline constexpr std::size_t kMib = std::size_t{1} << 20;
 /// "1280x720" or "1280,720", or "256" for a square. Sides from 1 to 2^31 - 1; make_render_job checks the number of pixels.
 [[nodiscard]] Result<PictureSize> parse_size(std::string_view text);
 
+/// A pixel of the picture, from its upper left corner.
+struct PixelPlace {
+    int x = 0, y = 0;
+};
+
+/// "X,Y" from 0.
+[[nodiscard]] Result<PixelPlace> parse_pixel(std::string_view text);
+
 /// "X,Y,W,H" with X and Y from 0, W and H from 1.
 [[nodiscard]] Result<Region> parse_region(std::string_view text);
 

@@ -17,6 +17,21 @@ Result<LoadedScene> load_file(const RenderOptions& options) {
     return load_model_bytes(*bytes, kStandardInputName, "", load);
 }
 
+/// Copies of the function share the names.
+NameOfInstance node_names(const LoadedScene& loaded) {
+    struct NodeNames {
+        std::vector<std::string> of_nodes;
+        std::vector<int> node_of_instance;
+    };
+    auto names = std::make_shared<NodeNames>();
+    for (const Node& node : loaded.nodes) names->of_nodes.push_back(node.name);
+    names->node_of_instance = loaded.node_of_instance;
+    return [names](std::size_t instance) -> std::string {
+        if (instance >= names->node_of_instance.size()) return "";  // of the program, such as a ground
+        return names->of_nodes[static_cast<std::size_t>(names->node_of_instance[instance])];
+    };
+}
+
 }  // namespace
 
 Result<SceneSource> load_scene(const RenderOptions& options) {
@@ -38,7 +53,8 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                        std::move(loaded->animations),
                        loaded->animation,
                        std::move(loaded->placement),
-                       std::move(loaded->motion)};
+                       std::move(loaded->motion),
+                       node_names(*loaded)};
 }
 
 bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(name) || is_model_name(name) || is_file(name); }

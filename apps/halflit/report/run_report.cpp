@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <utility>
 
@@ -119,6 +120,13 @@ Json error_bound_json(const ErrorBound& error) {
     json["largest_part"] = largest->first;
     for (const auto& [name, codes] : parts) json["parts"][name] = codes;
     return json;
+}
+
+Json json_number(float value) {
+    const std::string text = fmt::format("{}", value);
+    double shortest = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), shortest);
+    return error == std::errc() ? shortest : static_cast<double>(value);
 }
 
 Json region_json(const Region& region) { return {region.x, region.y, region.width, region.height}; }

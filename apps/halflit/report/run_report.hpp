@@ -23,6 +23,9 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// {"budget_codes", "bound_codes", "within", "parts"}: the budget of --max-error, and the proven bound with its parts.
 [[nodiscard]] Json error_bound_json(const ErrorBound& error);
 
+/// The double with the float's shortest decimal digits, so that JSON shows 0.8 and not 0.800000011920929.
+[[nodiscard]] Json json_number(float value);
+
 /// [x, y, width, height].
 [[nodiscard]] Json region_json(const Region& region);
 

@@ -10,7 +10,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <iterator>
 #include <span>
 #include <string_view>
@@ -19,27 +18,7 @@
 namespace halflit::cli {
 namespace {
 
-/// The double with the float's shortest decimal digits, so that JSON shows 0.8 and not 0.800000011920929.
-Json number(float value) {
-    const std::string text = fmt::format("{}", value);
-    double shortest = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), shortest);
-    return error == std::errc() ? shortest : static_cast<double>(value);
-}
-
-Json vector_json(Vec3f v) { return {number(v.x), number(v.y), number(v.z)}; }
-
-std::string_view name_of(AlphaMode mode) {
-    switch (mode) {
-        case AlphaMode::opaque:
-            return "opaque";
-        case AlphaMode::mask:
-            return "mask";
-        case AlphaMode::blend:
-            return "blend";
-    }
-    return "";
-}
+Json vector_json(Vec3f v) { return {json_number(v.x), json_number(v.y), json_number(v.z)}; }
 
 Json names_json(const std::vector<std::string>& names) {
     Json list = Json::array();
@@ -107,7 +86,7 @@ Json lights_json(const Lighting& drawn) {
         Json one{{"type", kind_of(light.type).name}, {"color", vector_json(light.color_linear)}};
         if (kind_of(light.type).placed) one["position"] = vector_json(light.position_ws);
         if (kind_of(light.type).aimed) one["direction"] = vector_json(light.direction_ws);
-        if (light.range > 0) one["range"] = number(light.range);
+        if (light.range > 0) one["range"] = json_number(light.range);
         lights.push_back(std::move(one));
     }
     return lights;
@@ -124,7 +103,7 @@ Json savings_json(const shading::ShadingPlan& frame, const shading::MaterialPlan
     Json savings{{"lobe_power", power ? tier_name(plan.lobe.tier) : curve ? "curve" : "not needed"}};
     if ((plan.stages & kStageSpecular) != 0) {
         savings["specular_power"] = specular_power_name(plan);
-        savings["specular_left_out_below"] = number(plan.specular_threshold);
+        savings["specular_left_out_below"] = json_number(plan.specular_threshold);
     }
     std::size_t limited = 0;
     for (const shading::LightPlan& light : frame.lights) limited += light.cutoff_squared > 0.0f ? 1 : 0;
@@ -137,11 +116,11 @@ Json material_json(const Material& source, const shading::ShadingPlan& frame, co
     Json needed = Json::array(), not_needed = Json::array();
     for (std::size_t bit = 0; bit < std::size(kStageNames); ++bit)
         ((plan.stages >> bit & 1u) != 0 ? needed : not_needed).push_back(kStageNames[bit]);
-    Json material{{"name", source.name}, {"alpha", name_of(plan.alpha_mode)}, {"double_sided", plan.double_sided}};
+    Json material{{"name", source.name}, {"alpha", alpha_mode_name(plan.alpha_mode)}, {"double_sided", plan.double_sided}};
     if (plan.stages & (kStageLights | kStageEnvironment)) {
         const Lobe& lobe = shading::lobe_of(source, options);
-        material["lobe"] = {{"wrap", number(lobe.wrap)},
-                            {"power", number(lobe.power)},
+        material["lobe"] = {{"wrap", json_number(lobe.wrap)},
+                            {"power", json_number(lobe.power)},
                             {"normalize", lobe.normalize},
                             {"computed_as", lobe_path_name(plan.lobe.path)}};
     }
@@ -228,7 +207,7 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     description["animations"] = std::move(animations);
     if (job.animation() != nullptr) description["pose"] = pose_json(job);
     description["size"] = {job.width, job.height};
-    description["exposure"] = number(job.settings.exposure);
+    description["exposure"] = json_number(job.settings.exposure);
     description["tone_curve"] = tone_curve_name(job.settings.tone_curve);
     description["lights"] = lights_json(job.light);
     const Ambient& ambient = job.light.ambient;

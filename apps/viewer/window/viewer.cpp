@@ -2,6 +2,7 @@
 #include "apps/viewer/viewer.hpp"
 
 #include "apps/halflit/program/stopwatch.hpp"
+#include "apps/halflit/report/pixel_story_text.hpp"
 #include "apps/viewer/frame_worker.hpp"
 #include "apps/viewer/orbit_camera.hpp"
 #include "apps/viewer/window/gui.hpp"
@@ -60,6 +61,7 @@ public:
         texts_.exposure = job.settings.exposure;
         origin_ = job.source.placement.origin, scale_ = job.source.placement.scale;
         title_ = "halflit: " + job.source.name;
+        node_name_ = job.source.node_name;
         worker_ = std::make_unique<FrameWorker>(std::move(job), options, [this] { wake(); });
     }
 
@@ -126,7 +128,7 @@ private:
             ended_ = true;
         }
         if (frame->story) {
-            texts_.pixel = story_text(*frame->story);
+            texts_.pixel = cli::story_text(*frame->story, node_name_);
             texts_.marked = !moved_since_request_;
             texts_.mark_x = frame->story->x, texts_.mark_y = frame->story->y;
             panel_.tab = Tab::pixel;
@@ -329,6 +331,7 @@ private:
     RehearsalMouse mouse_;
     const Uint32 done_event_;
     std::string title_;
+    cli::NameOfInstance node_name_;
     Vec3d origin_{};  ///< a point p of the file is drawn at (p - origin) * scale
     double scale_ = 1.0;
     int picture_width_ = 0, picture_height_ = 0, started_width_ = 0, started_height_ = 0;

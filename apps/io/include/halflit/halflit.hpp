@@ -5,6 +5,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/environment.hpp"
 #include "halflit/error.hpp"
+#include "halflit/explain.hpp"
 #include "halflit/export.hpp"
 #include "halflit/gltf.hpp"
 #include "halflit/image.hpp"
