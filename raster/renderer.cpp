@@ -121,7 +121,8 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
             return tl::unexpected<Error>(ok.error());
     report.ms.shadows = watch.lap();
 
-    if (auto ok = geometry.make(scene, plan.picture, raster, executor, target.triangle != nullptr); !ok)
+    const Output output(target, plan.written);
+    if (auto ok = geometry.make(scene, plan.picture, raster, executor, output.has_triangle()); !ok)
         return tl::unexpected<Error>(ok.error());
     report.ms.cull = geometry.times_ms().cull;
     report.ms.transform = geometry.times_ms().transform;
@@ -130,7 +131,6 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
 
     records.make(geometry, plan.shading.materials, raster, executor);
     if (shades && plan.options.rate == ShadingRate::gouraud) report.work = light_vertices(geometry, records, plan.shading, shade, executor);
-    const Output output(target, plan.written);
     if (output.has_surface()) make_surface(scene, raster, output.has_material());
     report.ms.transform += watch.lap();
 

@@ -27,7 +27,7 @@ HALFLIT_ENDS_WITH(halflit_camera, reserved);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);
 HALFLIT_ENDS_WITH(halflit_picture_request, reserved);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
-HALFLIT_ENDS_WITH(halflit_target, coverage_row_bytes);
+HALFLIT_ENDS_WITH(halflit_target, uv_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
 HALFLIT_ENDS_WITH(halflit_measured, reserved);
 #undef HALFLIT_ENDS_WITH
@@ -283,6 +283,10 @@ Target target(const halflit_target& given) {
     target.lights_row_bytes = given.lights_row_bytes;
     target.coverage = given.coverage;
     target.coverage_row_bytes = given.coverage_row_bytes;
+    target.barycentric = given.barycentric;
+    target.barycentric_row_bytes = given.barycentric_row_bytes;
+    target.uv = given.uv;
+    target.uv_row_bytes = given.uv_row_bytes;
     return target;
 }
 

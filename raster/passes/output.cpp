@@ -49,7 +49,9 @@ Result<void> check_target(const Target& target, const Region& region) {
                   {"albedo", target.albedo, target.albedo_row_bytes, 12, alignof(float)},
                   {"position", target.position, target.position_row_bytes, 12, alignof(float)},
                   {"lights", target.lights, target.lights_row_bytes, 4, alignof(std::uint32_t)},
-                  {"coverage", target.coverage, target.coverage_row_bytes, 4, alignof(float)}};
+                  {"coverage", target.coverage, target.coverage_row_bytes, 4, alignof(float)},
+                  {"barycentric", target.barycentric, target.barycentric_row_bytes, 8, alignof(float)},
+                  {"uv", target.uv, target.uv_row_bytes, 8, alignof(float)}};
     for (const auto& plane : planes)
         if (auto ok = check_plane(plane.name, plane.data, plane.row_bytes, plane.pixel_bytes, plane.alignment, width); !ok) return ok;
     return {};
@@ -72,6 +74,8 @@ Output::Output(const Target& target, const Region& region)
     position = {target.position, target.position_row_bytes, 3, width, x0, y0};
     lights = {target.lights, target.lights_row_bytes, 1, width, x0, y0};
     coverage = {target.coverage, target.coverage_row_bytes, 1, width, x0, y0};
+    barycentric = {target.barycentric, target.barycentric_row_bytes, 2, width, x0, y0};
+    uv = {target.uv, target.uv_row_bytes, 2, width, x0, y0};
 }
 
 void Output::finish_codes(std::uint32_t* codes_of_pixels, int count) const {

@@ -57,11 +57,13 @@ public:
     [[nodiscard]] bool is_premultiplied() const { return premultiplied_; }
 
     Plane<std::uint8_t> codes;
-    Plane<float> linear, depth, normal, shading_normal, albedo, position, coverage;
+    Plane<float> linear, depth, normal, shading_normal, albedo, position, coverage, barycentric, uv;
     Plane<std::uint32_t> instance, triangle, lights;
     /// Colours are asked for. Otherwise nothing is shaded, and no light is looked at.
     [[nodiscard]] bool has_colors() const { return codes || linear; }
-    [[nodiscard]] bool has_planes() const { return depth || instance || triangle || coverage || has_surface(); }
+    [[nodiscard]] bool has_planes() const { return depth || instance || coverage || has_triangle() || has_surface(); }
+    /// Planes that need the number of the triangle in its mesh.
+    [[nodiscard]] bool has_triangle() const { return triangle || barycentric || uv; }
     /// Planes of what is interpolated or read from textures.
     [[nodiscard]] bool has_surface() const { return normal || has_material(); }
     [[nodiscard]] bool has_material() const { return shading_normal || albedo || position || lights; }

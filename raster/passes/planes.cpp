@@ -18,6 +18,13 @@ void write3(const Plane<float>& plane, int x, int y, const float* a, const float
     p[2] = number(c[lane]);
 }
 
+/// Writes two floats of a pixel, each rounded once.
+void write2(const Plane<float>& plane, int x, int y, double a, double b) {
+    if (!plane) return;
+    plane.at(x, y)[0] = number(static_cast<float>(a));
+    plane.at(x, y)[1] = number(static_cast<float>(b));
+}
+
 void clear3(const Plane<float>& plane, int x, int y) {
     if (plane)
         for (int i = 0; i < 3; ++i) plane.at(x, y)[i] = 0.0f;
@@ -38,6 +45,11 @@ void PictureTile::write_planes(bool empty) {
                                                     : std::numeric_limits<float>::infinity();
             for (const Plane<float>* plane : {&output.normal, &output.shading_normal, &output.albedo, &output.position})
                 clear3(*plane, x_px, y_px);
+            if (output.barycentric || output.uv) {
+                const TrianglePoint point = seen ? geometry.point_at(id, x_px, y_px) : TrianglePoint{};
+                write2(output.barycentric, x_px, y_px, point.weight[1], point.weight[2]);
+                write2(output.uv, x_px, y_px, point.u, point.v);
+            }
             if (output.lights) *output.lights.at(x_px, y_px) = 0;
             if (output.instance) *output.instance.at(x_px, y_px) = seen ? geometry.draw_of(geometry.record(id)).instance + 1 : 0;
             if (output.triangle) *output.triangle.at(x_px, y_px) = seen ? geometry.triangle_of(id) + 1 : 0;

@@ -101,6 +101,12 @@ struct Chunk {
     }
 };
 
+/// A point of a triangle, line or point of the mesh.
+struct TrianglePoint {
+    double weight[3] = {};  ///< of its corners, in the mesh's order; their sum is 1
+    double u = 0, v = 0;    ///< Mesh::uv0 there
+};
+
 class ViewGeometry {
 public:
     /// Runs the passes, unless scene and view are those of the last call. Fails if there are more vertices or triangles than can be
@@ -146,6 +152,8 @@ public:
         const Draw& draw = draw_of(record(id));
         return static_cast<std::uint32_t>((submission_of(id) - draw.triangle_base) >> (draw.quads() ? 1 : 0));
     }
+    /// The point of a triangle at a pixel's centre, or beside it as interpolate.hpp has it. Only if `numbered`.
+    [[nodiscard]] TrianglePoint point_at(std::uint32_t id, int x_px, int y_px) const;
     /// True only if no triangle touches the tile.
     [[nodiscard]] bool tile_is_empty(int tile) const;
     /// Records of a chunk that may cover something of a tile, in submission order. scratch: may hold the result.

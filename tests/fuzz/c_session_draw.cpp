@@ -87,7 +87,7 @@ void Session::draw() {
     std::vector<float> pixels((row * (height - 1) + pixel * width) / 4), depth(width * height), normal(3 * width * height);
     std::vector<std::uint32_t> instance(width * height), triangle(width * height), lights(width * height);
     std::vector<float> shading_normal(3 * width * height), albedo(3 * width * height), position(3 * width * height),
-        coverage(width * height);
+        coverage(width * height), barycentric(2 * width * height), uv(2 * width * height);
     check(halflit_target_init(target.get(), target.size()));
     target.set(&halflit_target::pixels, or_null(pixels.data()));
     target.set(&halflit_target::row_bytes, padding == 0 && in_.flag() ? 0 : row);
@@ -101,6 +101,8 @@ void Session::draw() {
         target.set(&halflit_target::position, position.data());
         target.set(&halflit_target::lights, lights.data());
         target.set(&halflit_target::coverage, coverage.data());
+        target.set(&halflit_target::barycentric, barycentric.data());
+        target.set(&halflit_target::uv, uv.data());
     }
     static constexpr std::int32_t kWrong[] = {0, -1, 32769, 2147483647};
     target.set(&halflit_target::width, in_.one_in(30) ? in_.pick(kWrong) : w);

@@ -16,7 +16,7 @@ struct Canvas {
     static constexpr std::uint8_t kUntouched = 0xA5;
 
     Bytes pixels;
-    std::vector<float> linear, depth, normal, shading_normal, albedo, position, coverage;
+    std::vector<float> linear, depth, normal, shading_normal, albedo, position, coverage, barycentric, uv;
     std::vector<std::uint32_t> instance, triangle, lights;
     Target target;
 
@@ -38,6 +38,9 @@ struct Canvas {
         for (auto* plane : {&shading_normal, &albedo, &position}) plane->assign(3 * width * height, 0.0f);
         coverage.assign(width * height, 0.0f);
         lights.assign(width * height, 0);
+        for (auto* plane : {&barycentric, &uv}) plane->assign(2 * width * height, 0.0f);
+        target.barycentric = barycentric.data();
+        target.uv = uv.data();
         target.shading_normal = shading_normal.data();
         target.albedo = albedo.data();
         target.position = position.data();
@@ -59,7 +62,8 @@ struct Canvas {
         };
         return same(pixels, other.pixels) && same(linear, other.linear) && same(depth, other.depth) && same(normal, other.normal) &&
                same(instance, other.instance) && same(triangle, other.triangle) && same(shading_normal, other.shading_normal) &&
-               same(albedo, other.albedo) && same(position, other.position) && same(coverage, other.coverage) && same(lights, other.lights);
+               same(albedo, other.albedo) && same(position, other.position) && same(coverage, other.coverage) &&
+               same(lights, other.lights) && same(barycentric, other.barycentric) && same(uv, other.uv);
     }
 
     /// Nothing outside of the region is written, no NaN anywhere, and numbers are those of the scene.
@@ -74,9 +78,11 @@ struct Canvas {
                     pixels.data() + static_cast<std::size_t>(y) * target.row_bytes + static_cast<std::size_t>(4 * x);
                 HALFLIT_PROMISE(inside || std::all_of(pixel, pixel + 4, is_untouched));
             }
-        for (const auto* plane : {&linear, &depth, &normal, &shading_normal, &albedo, &position, &coverage})
+        for (const auto* plane : {&linear, &depth, &normal, &shading_normal, &albedo, &position, &coverage, &barycentric, &uv})
             for (const float value : *plane) HALFLIT_PROMISE(!std::isnan(value));
         for (std::size_t i = 0; i < instance.size(); ++i) {
+            HALFLIT_PROMISE(barycentric[2 * i] >= 0.0f && barycentric[2 * i + 1] >= 0.0f &&
+                            barycentric[2 * i] + barycentric[2 * i + 1] <= 1.000001f);
             HALFLIT_PROMISE(lights[i] <= scene.lights.size() && coverage[i] >= 0.0f && coverage[i] <= 1.0f);
             HALFLIT_PROMISE(instance[i] <= scene.instances.size() && (instance[i] == 0) == (triangle[i] == 0));
             if (instance[i] == 0) continue;

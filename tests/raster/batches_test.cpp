@@ -65,6 +65,17 @@ bool is_in_batches(const Shot& shot) {
     return geometry.has_only_used_vertices();
 }
 
+/// The planes `barycentric` and `uv` of a shot.
+std::vector<float> points_of(const Shot& shot, Renderer& renderer, const Execution& execution) {
+    constexpr std::size_t kFloats = 2 * kViewWidth * kViewHeight;
+    std::vector<float> both(2 * kFloats, -1.0f);
+    const PreparedScene prepared = PreparedScene::make(shot.scene).value();
+    REQUIRE(renderer.render(prepared, shot.camera, shot.settings,
+                            {.width = kViewWidth, .height = kViewHeight, .barycentric = both.data(), .uv = both.data() + kFloats},
+                            execution));
+    return both;
+}
+
 }  // namespace
 
 TEST_CASE("batches: a view of many vertices has the pixels of the same view without them", "[raster][batches]") {
@@ -86,6 +97,7 @@ TEST_CASE("batches: a view of many vertices has the pixels of the same view with
         in_batches += is_in_batches(larger) ? 1 : 0;  // unless the camera does not see that place
         CHECK(differing(few, draw(larger, renderer, execution)) == 0);
         CHECK(differing(few, draw(shot, renderer, execution)) == 0);
+        if (shot.settings.region.width == 0) CHECK(points_of(shot, renderer, execution) == points_of(larger, renderer, execution));
         visible += few.visible;
     }
     CHECK(visible > kScenes * kViewWidth * kViewHeight / 5);

@@ -28,7 +28,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 struct Planes {
     int width, height;
     std::vector<std::uint8_t> codes;
-    std::vector<float> depth, normal;
+    std::vector<float> depth, normal, barycentric, uv;
     std::vector<std::uint32_t> instance, triangle;
     RenderReport report;
 
@@ -38,6 +38,8 @@ struct Planes {
           codes(4 * pixels(), 0xCD),
           depth(pixels(), -7),
           normal(3 * pixels(), -7),
+          barycentric(2 * pixels(), -7),
+          uv(2 * pixels(), -7),
           instance(pixels(), 99),
           triangle(pixels(), 99) {}
     [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
@@ -48,7 +50,9 @@ struct Planes {
                 .depth = depth.data(),
                 .normal = normal.data(),
                 .instance = instance.data(),
-                .triangle = triangle.data()};
+                .triangle = triangle.data(),
+                .barycentric = barycentric.data(),
+                .uv = uv.data()};
     }
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -56,7 +60,9 @@ struct Planes {
     [[nodiscard]] Vec3d normal_at(std::size_t i) const { return {normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]}; }
     bool operator==(const Planes& o) const {
         return std::memcmp(depth.data(), o.depth.data(), 4 * pixels()) == 0 &&
-               std::memcmp(normal.data(), o.normal.data(), 12 * pixels()) == 0 && instance == o.instance && triangle == o.triangle;
+               std::memcmp(normal.data(), o.normal.data(), 12 * pixels()) == 0 && instance == o.instance && triangle == o.triangle &&
+               std::memcmp(barycentric.data(), o.barycentric.data(), 8 * pixels()) == 0 &&
+               std::memcmp(uv.data(), o.uv.data(), 8 * pixels()) == 0;
     }
 };
 
@@ -254,7 +260,8 @@ TEST_CASE("planes: where nothing is, depth is infinite, and the rest is 0", "[ra
                     const bool hit = p.instance[i] != 0;
                     seen += hit;
                     const bool nothing = p.depth[i] == kInf && p.triangle[i] == 0 && p.normal[3 * i] == 0 && p.normal[3 * i + 1] == 0 &&
-                                         p.normal[3 * i + 2] == 0;
+                                         p.normal[3 * i + 2] == 0 && p.barycentric[2 * i] == 0 && p.barycentric[2 * i + 1] == 0 &&
+                                         p.uv[2 * i] == 0 && p.uv[2 * i + 1] == 0;
                     const bool something = p.instance[i] == 1 && (p.triangle[i] == 1 || p.triangle[i] == 2) &&
                                            std::fabs(double{p.depth[i]} - 3) < 1e-5 && p.normal_at(i) == Vec3d{0, 0, 1};
                     wrong += hit ? !something : !nothing;
@@ -517,10 +524,14 @@ TEST_CASE("planes: a Renderer gives each plane whichever it drew before", "[rast
             drop(target.depth, p.depth, wanted.depth);
             drop(target.normal, p.normal, wanted.normal);
             drop(target.instance, p.instance, wanted.instance);
-            if (frame == 0 || random.chance(0.5)) {  // the first frame without, so that the second changes what is kept
-                target.triangle = nullptr;
-                p.triangle = wanted.triangle;
+            const bool is_numbered = frame != 0 && random.chance(0.5);  // the first frame is not, so that the second changes what is kept
+            if (!is_numbered) {
+                target.triangle = nullptr, target.barycentric = nullptr, target.uv = nullptr;
+                p.triangle = wanted.triangle, p.barycentric = wanted.barycentric, p.uv = wanted.uv;
             }
+            drop(target.triangle, p.triangle, wanted.triangle);
+            drop(target.barycentric, p.barycentric, wanted.barycentric);
+            drop(target.uv, p.uv, wanted.uv);
             if (frame == 9) renderer.forget_frames();
             REQUIRE(renderer.render(prepared, street.camera, settings, target));
             CHECK(p == wanted);
@@ -584,6 +595,8 @@ TEST_CASE("planes: a region is the same part of the whole, in either layout, wit
                     check(&Target::normal, &Target::normal_row_bytes, whole.normal, 3);
                     check(&Target::instance, &Target::instance_row_bytes, whole.instance, 1);
                     check(&Target::triangle, &Target::triangle_row_bytes, whole.triangle, 1);
+                    check(&Target::barycentric, &Target::barycentric_row_bytes, whole.barycentric, 2);
+                    check(&Target::uv, &Target::uv_row_bytes, whole.uv, 2);
                     CHECK(wrong == 0);
                 }
         settings.region = {};

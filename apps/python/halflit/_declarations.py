@@ -87,7 +87,7 @@ STRUCTS = {
         size_t depth_row_bytes; float* normal; size_t normal_row_bytes; float* shading_normal; size_t shading_normal_row_bytes;
         float* albedo; size_t albedo_row_bytes; float* position; size_t position_row_bytes; uint32_t* instance; size_t
         instance_row_bytes; uint32_t* triangle; size_t triangle_row_bytes; uint32_t* lights; size_t lights_row_bytes; float*
-        coverage; size_t coverage_row_bytes;
+        coverage; size_t coverage_row_bytes; float* barycentric; size_t barycentric_row_bytes; float* uv; size_t uv_row_bytes;
 """,
     "halflit_report": """
         size_t size; double total_ms; double prepare_ms; double plan_ms; double shadows_ms; double cull_ms, transform_ms, bin_ms;
@@ -248,6 +248,11 @@ void halflit_renderer_destroy(halflit_renderer* renderer);
 int32_t halflit_target_init(halflit_target* target, size_t size);
 int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target, halflit_report* report);
 int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
+int32_t halflit_ray_distances(const halflit_camera* camera, int32_t width, int32_t height, const halflit_region* region, float* depth);
+int32_t halflit_view_normals(const halflit_camera* camera, float* normal, size_t count);
+int32_t halflit_scene_mesh_numbers(const halflit_scene* scene, uint32_t* instance, size_t count);
+int32_t halflit_scene_material_numbers(const halflit_scene* scene, uint32_t* instance, size_t count);
+int32_t halflit_motion(const halflit_scene* scene, const halflit_camera* camera, const halflit_scene* other, const halflit_camera* other_camera, int32_t width, int32_t height, const uint32_t* instance, const uint32_t* triangle, const float* barycentric, size_t count, float* motion);
 int32_t halflit_measured_init(halflit_measured* measured, size_t size);
 int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera, const halflit_settings* settings, int32_t width, int32_t height, halflit_measured* measured);
 uint64_t halflit_pixel_hash(const void* bytes, size_t count);

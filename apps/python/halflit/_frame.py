@@ -2,16 +2,16 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict
+from typing import Any, Dict, Iterator
 
 from . import _c
 from ._errors import UsageError, warn
 from ._execution import Execution
-from ._options import apply_settings, check_names, settings_dict
+from ._options import KNOWN, apply_settings, check_names, settings_dict
 from ._picture import Picture
 from ._setup import Setup, choose, drawn_camera, exposure_of, kept
 from ._target import Target
-from ._values import real
+from ._values import real, shown
 
 
 _QUALITIES = {"fast": (2, 99), "draft": (8, 95)}
@@ -21,13 +21,48 @@ _MEASURED = ("samples", "anisotropy", "shadow_size")
 def draw(scene, size, options: dict) -> Picture:
     """The frame that the keywords ask for. The scene is locked."""
     check_names(options)
-    setup = (choose if options.get("setup") is None else kept)(scene, size, options)
+    return draw_setup(scene, (choose if options.get("setup") is None else kept)(scene, size, options), options)
+
+
+def draw_batch(scene, cameras: list, size, light: str, options: dict) -> Iterator[Picture]:
+    """A picture for each camera, drawn when it is asked for. The scene is locked meanwhile."""
+    check_names(options, [name for name in KNOWN if name not in ("camera", "azimuth", "elevation", "setup", "out")], "render_batch")
+    if light not in ("fixed", "viewer"):
+        raise UsageError(f"light: expected 'fixed' or 'viewer', found {shown(light)}")
+    views = [view_of(camera) for camera in cameras]
+    return frames(scene, views, size, light == "fixed", options)
+
+
+def frames(scene, views: list, size, is_fixed: bool, options: dict) -> Iterator[Picture]:
+    chosen = None
+    for view in views:
+        with scene._lock:
+            setup = choose(scene, size, {**options, **view})
+            if chosen is not None and is_fixed:
+                setup = Setup(setup._camera, chosen._settings, chosen._lighting, chosen.size)
+            elif chosen is None:
+                chosen = setup
+                size = setup.size
+            picture = draw_setup(scene, setup, options)
+        yield picture
+
+
+def view_of(camera) -> Dict[str, Any]:
+    """The keywords of render() for an entry of render_batch(cameras)."""
+    if isinstance(camera, (tuple, list)) and len(camera) == 2:
+        return {"azimuth": real(camera[0], "azimuth"), "elevation": real(camera[1], "elevation")}
+    return {"camera": camera}
+
+
+def draw_setup(scene, setup: Setup, options: dict) -> Picture:
+    """The frame of a setup."""
     settings = settings_of(scene, setup, options)
     target = Target(setup.size, settings, options)
     report = frame(scene, setup, settings, target, Execution(options, scene._lock))
     scene._world.planes_out(target.planes)
     picture = target.picture
-    picture.aovs, picture.camera, picture.report = target.planes, setup.camera, report
+    picture.camera, picture.report = setup.camera, report
+    picture.aovs = target.derive(scene, picture.camera, settings.region)
     picture.settings = settings_dict(settings)
     picture.settings["shadow_fade"] /= scene._world.scale
     for line in report["warnings"]:

@@ -21,12 +21,23 @@ PLANES = {
     "triangle": ("triangle", 1, "uint32"),  # number of the triangle in its mesh plus 1
     "coverage": ("coverage", 1, "float32"),  # share of the samples that a surface covers
     "lights": ("lights", 1, "uint32"),  # lights that have the surface in their range and cone
+    "barycentric": ("barycentric", 2, "float32"),  # weights of the triangle's second and third corner
+    "uv": ("uv", 2, "float32"),  # texture coordinates, set 0, before a texture's own transform
+}
+#: Planes that are made of others: name -> the plane that it is made of, in the same shape and type.
+DERIVED = {
+    "ray": "depth",  # distance from the camera's eye; infinity where nothing is
+    "view_normal": "normal",  # in the camera's space: x to the right, y up, z towards the viewer
+    "mesh": "id",  # index of the mesh plus 1
+    "material": "id",  # index of the material plus 1; 0 for the default material too
 }
 
 #: Names of the planes: render(aovs=...).
-AOVS = tuple(PLANES)
+AOVS = (*PLANES, *DERIVED)
 
-VIEW = ("camera", "azimuth", "elevation", "zoom", "fov", "orthographic", "setup", "exposure", "ev", "ambient", "studio", "studio_turn")
+#: Keywords of a view of the whole scene.
+WHOLE_SCENE = ("azimuth", "elevation", "zoom", "fov", "orthographic")
+VIEW = ("camera", *WHOLE_SCENE, "setup", "exposure", "ev", "ambient", "studio", "studio_turn")
 PIXELS = ("dtype", "premultiplied", "out", "aovs", "region")
 EXECUTION = ("threads", "isa", "tile_size", "time_limit", "memory_limit", "progress", "cancelled")
 #: Keyword -> (member of halflit_settings, type or enumeration). Written by apps/c/members.py.

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
 
 from . import _c
 from ._camera import Camera
@@ -202,6 +202,34 @@ class Scene(Geometry, Lighting):
 
         with self._lock:
             return draw(self, size, dict(options))
+
+    def render_batch(
+        self, cameras: Iterable[Any], size: Size = None, *, light: str = "fixed", **options: Unpack[PictureOptions]
+    ) -> Iterator[pictures.Picture]:
+        """Draws the scene by many cameras: an iterator of pictures, each drawn when it is asked for.
+
+        cameras: each a Camera, its matrix, a camera of the file, or (azimuth, elevation) in degrees. light: "fixed": exposure and the light
+        that is chosen are those of the first camera, so that a surface looks the same in all pictures; "viewer": the studio turns with
+        each camera, and the pictures are those of render(). The other keywords are those of render() but for the view, setup and out.
+
+            views = [(azimuth, elevation) for elevation in (10, 40) for azimuth in range(0, 360, 5)]
+            for picture in scene.render_batch(views, 256, aovs=["depth", "id", "barycentric"], threads=2):
+                ...
+        """
+        from ._frame import draw_batch
+
+        return draw_batch(self, list(cameras), size, light, dict(options))
+
+    def motion(self, picture: pictures.Picture, camera: Camera, scene: Optional[Scene] = None) -> np.ndarray:
+        """How far each point that a picture of this scene shows moves to the picture by another camera: float32 (height, width, 2), pixels,
+        x to the right, y down. 0 where nothing is, and for points that are not before both cameras.
+
+        picture: of the whole view, drawn with aovs "id", "triangle" and "barycentric". scene: the scene in another pose, of the same
+        meshes; by default this one.
+        """
+        from ._motion import motion
+
+        return motion(self, picture, camera, self if scene is None else scene)
 
     def measure(
         self,

@@ -10,7 +10,7 @@ from ._camera import Camera
 from ._color import color
 from ._errors import UsageError
 from ._lazy import np
-from ._options import VIEW, check_names
+from ._options import VIEW, WHOLE_SCENE, check_names
 from ._record import chosen
 from ._values import real, shown, sized, truth
 from ._world import World
@@ -89,7 +89,7 @@ def exposure_of(options: dict) -> Optional[float]:
 
 def request_of(scene, options: dict) -> Request:
     struct, given = _c.make("picture_request"), options.get("camera")
-    whole_scene = [name for name in ("azimuth", "elevation", "zoom", "fov", "orthographic") if options.get(name) is not None]
+    whole_scene = [name for name in WHOLE_SCENE if options.get(name) is not None]
     struct.frame = bool(whole_scene) or (isinstance(given, str) and given == "frame")
     camera, scene_camera = None, None
     if given is not None and not (isinstance(given, str) and given == "frame"):

@@ -1,13 +1,14 @@
 """The memory of a frame: the picture, and the planes beside it. This module imports numpy."""
 from __future__ import annotations
 
+import ctypes
 from typing import Dict, Tuple
 
 import numpy as np
 
 from . import _c
 from ._errors import UsageError
-from ._options import AOVS, PLANES
+from ._options import AOVS, DERIVED, PLANES
 from ._picture import Picture
 from ._values import shown, sized, truth
 
@@ -26,9 +27,26 @@ class Target:
         self.struct.pixels, self.struct.row_bytes = pixels.ctypes.data, pixels.strides[0]
         self.picture = pixels.view(Picture)
         self.picture.premultiplied = premultiplied
-        self.planes = planes_of((height, width), options)
+        self.asked = names_of(options)
+        self.planes = planes_of((height, width), self.asked)
         for name, plane in self.planes.items():
             setattr(self.struct, PLANES[name][0], plane.ctypes.data)
+
+    def derive(self, scene, camera, region) -> Dict[str, np.ndarray]:
+        """The planes that are asked for, of those that were drawn. Everything is in the file's world."""
+        found = {}
+        for name in self.asked:
+            plane = self.planes[DERIVED.get(name, name)]
+            if name in DERIVED:
+                plane = plane.copy()
+                if name == "ray":
+                    _c.call("ray_distances", ctypes.byref(camera._c), self.struct.width, self.struct.height, ctypes.byref(region), plane.ctypes.data)
+                elif name == "view_normal":
+                    _c.call("view_normals", ctypes.byref(camera._c), plane.ctypes.data, plane.size // 3)
+                else:
+                    _c.call(f"scene_{name}_numbers", scene._handle, plane.ctypes.data, plane.size)
+            found[name] = plane
+        return found
 
 
 def region_of(size: tuple, options: dict, settings, target) -> tuple:
@@ -70,17 +88,24 @@ def pixels_of(shape: tuple, options: dict) -> np.ndarray:
     return out
 
 
-def planes_of(shape: tuple, options: dict) -> Dict[str, np.ndarray]:
-    """New arrays for the planes that are asked for."""
+def names_of(options: dict) -> Tuple[str, ...]:
+    """Names of the planes that are asked for, each once."""
     asked = options.get("aovs")
     if asked is None:
-        return {}
-    planes = {}
+        return ()
     if isinstance(asked, str):
         asked = AOVS if asked == "all" else (asked,)
-    for name in asked if hasattr(asked, "__iter__") else (asked,):
-        if not isinstance(name, str) or name not in PLANES:
-            raise UsageError(f"aovs: expected names of {', '.join(PLANES)}, found {shown(name)}")
+    asked = tuple(asked) if hasattr(asked, "__iter__") else (asked,)
+    for name in asked:
+        if not isinstance(name, str) or name not in AOVS:
+            raise UsageError(f"aovs: expected names of {', '.join(AOVS)}, found {shown(name)}")
+    return tuple(dict.fromkeys(asked))
+
+
+def planes_of(shape: tuple, asked: Tuple[str, ...]) -> Dict[str, np.ndarray]:
+    """New arrays for the planes that are drawn: those that are asked for, or that these are made of."""
+    planes = {}
+    for name in dict.fromkeys(DERIVED.get(name, name) for name in asked):
         _, channels, kind = PLANES[name]
         planes[name] = np.empty(shape if channels == 1 else (*shape, channels), kind)
     return planes

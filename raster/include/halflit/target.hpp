@@ -52,6 +52,14 @@ struct Target {
     float* coverage = nullptr;  ///< samples that an opaque or masked surface covers, as a share of the pixel's; of all samples
     std::size_t shading_normal_row_bytes = 0, albedo_row_bytes = 0, position_row_bytes = 0;  ///< strides of these planes
     std::size_t lights_row_bytes = 0, coverage_row_bytes = 0;                                ///< strides of these planes
+
+    /// The same point as above, by its place in the triangle and in the texture. Both are computed in float64, and each float is rounded
+    /// once. Corners are where the picture has them, in whole 1/256 pixels.
+    /// Two floats: weights of the triangle's second and third corner, perspective-correct, 0 to 1; that of the first is 1 minus both, which
+    /// may be below 0 by 2^-24. Of a line the weight of its second end, and 0; of a point 0.
+    float* barycentric = nullptr;
+    float* uv = nullptr;  ///< two floats: Mesh::uv0 by these weights, before a texture's own transform; 0 where the mesh has none
+    std::size_t barycentric_row_bytes = 0, uv_row_bytes = 0;  ///< strides of these planes
 };
 
 /// Width and height of a picture in pixels.

@@ -706,6 +706,10 @@ typedef struct halflit_target {
     size_t lights_row_bytes;          ///< stride
     float* coverage;                  ///< share of the samples that an opaque or masked surface covers
     size_t coverage_row_bytes;        ///< stride
+    float* barycentric;               ///< 2 floats a pixel: weights of the triangle's second and third corner; that of the first is 1 - both
+    size_t barycentric_row_bytes;     ///< stride
+    float* uv;                        ///< 2 floats a pixel: texture coordinates, set 0, before a texture's own transform
+    size_t uv_row_bytes;              ///< stride
 } halflit_target;
 HALFLIT_C_API int32_t halflit_target_init(halflit_target* target, size_t size);
 
@@ -739,6 +743,24 @@ HALFLIT_C_API int32_t halflit_render(halflit_renderer* renderer, const halflit_s
                                      halflit_report* report);
 /// A warning of the renderer's last frame: one line, valid until its next frame.
 HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
+
+/// Turns the plane `depth`, without gaps between rows, into distances from the camera's eye, along the ray through each pixel's centre.
+/// width, height: of the whole picture. region: the part that `depth` holds; null, or a width of 0: all. Infinity stays, and so do the
+/// depths of an orthographic camera.
+HALFLIT_C_API int32_t halflit_ray_distances(const halflit_camera* camera, int32_t width, int32_t height, const halflit_region* region,
+                                            float* depth);
+/// Turns `count` normals of the world, 3 floats each, into the camera's space: x to the right, y up, z towards the viewer.
+HALFLIT_C_API int32_t halflit_view_normals(const halflit_camera* camera, float* normal, size_t count);
+/// Turns `count` numbers of the plane `instance` into indices of meshes plus 1. 0, and what the scene does not have, becomes 0.
+HALFLIT_C_API int32_t halflit_scene_mesh_numbers(const halflit_scene* scene, uint32_t* instance, size_t count);
+/// The same of materials: the instance's own, or else its mesh's; 0 for the default material.
+HALFLIT_C_API int32_t halflit_scene_material_numbers(const halflit_scene* scene, uint32_t* instance, size_t count);
+/// Writes how far each point that is seen moves in the picture, 2 floats a pixel: x to the right, y down, from the scene and camera that
+/// were drawn to the others. 0 where nothing is, and for points that are not before both cameras. instance, triangle, barycentric: planes
+/// of `count` pixels. width, height: of both whole pictures. other: the same scene, or one of the same meshes in another pose.
+HALFLIT_C_API int32_t halflit_motion(const halflit_scene* scene, const halflit_camera* camera, const halflit_scene* other,
+                                     const halflit_camera* other_camera, int32_t width, int32_t height, const uint32_t* instance,
+                                     const uint32_t* triangle, const float* barycentric, size_t count, float* motion);
 
 /// A budget that is measured: a share of the pixels is within some 8-bit codes of the picture in full quality; and the cheapest settings
 /// that keep it. 2 codes for 99 % are called fast, 8 codes for 95 % draft.
