@@ -255,6 +255,55 @@ static void test_struct_sizes(void) {
     free_cube(&cube);
 }
 
+/// Planes that name points of the cube, and what is made of them.
+static void test_points_of_triangles(void) {
+    static float depth[PIXELS], normal[3 * PIXELS], position[3 * PIXELS], barycentric[2 * PIXELS], uv[2 * PIXELS], motion[2 * PIXELS];
+    static uint32_t instance[PIXELS], triangle[PIXELS], mesh[PIXELS];
+    Cube cube = make_cube();
+    halflit_target target = make_target(NULL);
+    halflit_renderer* by = NULL;
+    halflit_camera wrong_size = cube.camera;
+    int i, seen = 0, wrong = 0;
+    cube.settings.samples = 1;  // the first sample is the centre, where positions are
+    target.depth = depth, target.normal = normal, target.position = position;
+    target.barycentric = barycentric, target.uv = uv, target.instance = instance, target.triangle = triangle;
+    CHECK_OK(halflit_renderer_create(NULL, &by));
+    CHECK_OK(halflit_render(by, cube.scene, NULL, &cube.camera, &cube.settings, &target, NULL));
+    halflit_renderer_destroy(by);
+    memcpy(mesh, instance, sizeof mesh);
+    CHECK_OK(halflit_scene_mesh_numbers(cube.scene, mesh, PIXELS));
+    CHECK_OK(halflit_ray_distances(&cube.camera, WIDTH, HEIGHT, NULL, depth));
+    CHECK_OK(halflit_view_normals(&cube.camera, normal, PIXELS));
+    CHECK_OK(
+        halflit_motion(cube.scene, &cube.camera, cube.scene, &cube.camera, WIDTH, HEIGHT, instance, triangle, barycentric, PIXELS, motion));
+    for (i = 0; i < PIXELS; ++i) {
+        const float* eye = cube.camera.world_from_camera + 12;
+        double squared = 0;
+        int k;
+        wrong += motion[2 * i] != 0 || motion[2 * i + 1] != 0;
+        if (instance[i] == 0) {
+            wrong += mesh[i] != 0 || barycentric[2 * i] != 0 || barycentric[2 * i + 1] != 0;
+            continue;
+        }
+        ++seen;
+        for (k = 0; k < 3; ++k) squared += ((double)position[3 * i + k] - eye[k]) * ((double)position[3 * i + k] - eye[k]);
+        wrong += !(squared / ((double)depth[i] * depth[i]) > 0.9999 && squared / ((double)depth[i] * depth[i]) < 1.0001);
+        wrong += !(normal[3 * i + 2] > -0.1f);  // towards the viewer
+        wrong += mesh[i] != (uint32_t)cube.mesh + 1;
+        wrong += !(barycentric[2 * i] >= 0 && barycentric[2 * i + 1] >= 0 && barycentric[2 * i] + barycentric[2 * i + 1] < 1.00001f);
+    }
+    CHECK(wrong == 0 && seen > 100);
+    CHECK_OK(halflit_scene_material_numbers(cube.scene, instance, PIXELS));
+    CHECK_FAILS(halflit_ray_distances(&cube.camera, 0, HEIGHT, NULL, depth), HALFLIT_ERROR_USAGE, "no pixels");
+    CHECK_FAILS(halflit_ray_distances(&cube.camera, WIDTH, HEIGHT, NULL, NULL), HALFLIT_ERROR_USAGE, "depth is null");
+    wrong_size.size = 3;
+    CHECK_FAILS(halflit_view_normals(&wrong_size, normal, PIXELS), HALFLIT_ERROR_USAGE, "halflit_camera");
+    CHECK_FAILS(
+        halflit_motion(NULL, &cube.camera, cube.scene, &cube.camera, WIDTH, HEIGHT, instance, triangle, barycentric, PIXELS, motion),
+        HALFLIT_ERROR_USAGE, "scene is null");
+    free_cube(&cube);
+}
+
 static void test_faulty_arguments(void) {
     Cube cube = make_cube();
     halflit_mesh mesh;
@@ -1415,6 +1464,7 @@ int main(void) {
     CHECK(strchr(halflit_version(), '.') != NULL && halflit_pixel_epoch() >= 1);
     test_null_pointers();
     test_struct_sizes();
+    test_points_of_triangles();
     test_faulty_arguments();
     test_formats();
     test_same_as_cpp();

@@ -86,6 +86,117 @@ class Planes(unittest.TestCase):
                 self.assertEqual(stored.tolist(), np.floor(planes[name] * float(scale) + 0.5).astype(np.int64).tolist(), name)
 
 
+    def test_points_of_triangles_and_derived_planes(self):
+        scene = halflit.Scene()
+        uv = np.array([[0, 0], [2, 0], [0, 4]], np.float32)
+        for x in (-1, 1):
+            corners = np.array([[x - 1, -1, 0], [x + 1, -1, 0], [x - 1, 1, 0]], np.float32)
+            scene.add_mesh(corners, [[0, 1, 2]], uv=uv, material={"base_color": (1, 1, 1)})
+        camera = halflit.Camera.look_at((0, 0, 6), (0, 0, 0), fov_y_rad=0.5)
+        planes = scene.render((64, 32), camera=camera, aovs="all", samples=1).aovs
+        tangent = np.tan(0.25)
+        x = 6 * (2 * (np.arange(64) + 0.5) / 64 - 1) * tangent * 2
+        y = 6 * (1 - 2 * (np.arange(32) + 0.5) / 32) * tangent
+        x, y = np.meshgrid(x, y)
+        seen = planes["id"] > 0
+        self.assertGreater(seen.sum(), 300)
+        left = np.where(planes["id"] == 1, -2, 0)
+        expected = np.stack([(x - left) / 2, (y + 1) / 2], axis=2)
+        self.assertLess(np.abs(planes["barycentric"] - expected)[seen].max(), 2e-3)  # corners are whole 1/256 pixels
+        self.assertLess(np.abs(planes["uv"] - planes["barycentric"] * (2, 4))[seen].max(), 1e-6)
+        self.assertTrue(np.allclose(planes["ray"][seen], np.sqrt(x * x + y * y + 36)[seen], rtol=1e-5))
+        self.assertTrue(np.isinf(planes["ray"][~seen]).all())
+        self.assertTrue(np.allclose(planes["view_normal"][seen], (0, 0, 1), atol=1e-6))
+        self.assertEqual(planes["mesh"].tolist(), planes["id"].tolist())
+        self.assertEqual(set(planes["material"][seen]), set(planes["mesh"][seen]))
+        for name in ("barycentric", "uv", "view_normal", "mesh", "material"):
+            self.assertFalse(planes[name][~seen].any(), name)
+        alone = scene.render((64, 32), camera=camera, aovs=["ray", "mesh"], samples=1).aovs
+        self.assertEqual(list(alone), ["ray", "mesh"])
+        self.assertTrue((alone["ray"] == planes["ray"]).all() and (alone["mesh"] == planes["mesh"]).all())
+        part = scene.render((64, 32), camera=camera, aovs=["ray"], samples=1, region=(20, 8, 30, 12)).aovs
+        self.assertTrue((part["ray"] == planes["ray"][8:20, 20:50]).all())
+
+    def test_normals_of_the_view_and_distances_have_no_up(self):
+        upright, turned = halflit.Scene(), halflit.Scene(up="z")
+        back = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], np.float32)  # y up to z up
+        upright.add_mesh(CORNERS, FACES)
+        turned.add_mesh(CORNERS @ back.T, FACES)
+        eye = np.array([2.0, 3.0, 4.0])
+        first = upright.render(40, camera=halflit.Camera.look_at(eye, (0, 0, 0)), aovs=["view_normal", "ray", "id"]).aovs
+        camera = halflit.Camera.look_at(back @ eye, (0, 0, 0), (0, 0, 1))
+        second = turned.render(40, camera=camera, aovs=["view_normal", "ray", "id"]).aovs
+        seen = (first["id"] > 0) & (second["id"] > 0)
+        self.assertGreater(seen.sum(), 300)
+        self.assertLess(np.abs(first["view_normal"] - second["view_normal"])[seen].max(), 1e-5)
+        self.assertLess(np.abs(first["ray"][seen] - second["ray"][seen]).max(), 1e-4)
+
+    def test_motion_is_where_points_are_in_the_other_picture(self):
+        needed = ["id", "triangle", "barycentric", "position"]
+        scene, camera = cube(), halflit.Camera.look_at((2, 2, 5), (0, 0, 0), fov_y_rad=0.6)
+        other = halflit.Camera.look_at((2.5, 1.5, 5), (0.2, 0, 0), fov_y_rad=0.6)
+        picture = scene.render((60, 40), camera=camera, aovs=needed, samples=1)
+        found = scene.motion(picture, other)
+
+        def pixels(view, points):
+            local = (points - view.matrix[:3, 3]) @ view.matrix[:3, :3]
+            scale = 20 / np.tan(0.3) / -local[..., 2]
+            return np.stack([30 + local[..., 0] * scale, 20 - local[..., 1] * scale], axis=-1)
+
+        position = picture.aovs["position"].astype(np.float64)
+        seen = picture.aovs["id"] > 0
+        expected = pixels(other, position) - pixels(camera, position)
+        self.assertGreater(seen.sum(), 300)
+        self.assertLess(np.abs(found - expected)[seen].max(), 1e-3)
+        self.assertFalse(found[~seen].any())
+        self.assertFalse(scene.motion(picture, camera).any())
+        moved = cube()
+        moved.set_instance(0, np.array([[1, 0, 0, 0.3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
+        found = scene.motion(picture, camera, moved)
+        expected = pixels(camera, position + (0.3, 0, 0)) - pixels(camera, position)
+        self.assertLess(np.abs(found - expected)[seen].max(), 1e-3)
+        with self.assertRaisesRegex(halflit.UsageError, "found none of triangle, barycentric"):
+            scene.motion(scene.render(8, aovs=["id"]), camera)
+        with self.assertRaisesRegex(halflit.UsageError, "found a region"):
+            scene.motion(scene.render((60, 40), region=(0, 0, 20, 20), aovs=needed), camera)
+
+
+class Batches(unittest.TestCase):
+    def test_pictures_are_those_of_single_calls(self):
+        scene = cube()
+        views = [(0, 20), (120, -10), FRONT, FRONT.matrix, (240, 40)]
+        keywords = [{"azimuth": v[0], "elevation": v[1]} if isinstance(v, tuple) else {"camera": v} for v in views]
+        batch = list(scene.render_batch(views, (40, 30), light="viewer", aovs=["depth", "id"], threads=1))
+        for picture, view in zip(batch, keywords):
+            single = scene.render((40, 30), aovs=["depth", "id"], **view)
+            self.assertEqual(picture.pixel_hash, single.pixel_hash)
+            self.assertTrue((picture.aovs["depth"] == single.aovs["depth"]).all())
+        self.assertEqual(len(batch), len(views))
+
+    def test_a_fixed_light_is_that_of_the_first_camera(self):
+        scene = cube()
+        first = scene.render(60, azimuth=30, elevation=20, aovs=["id"])
+        batch = list(scene.render_batch([(30, 20), (210, 20), (30, 20)], 60, aovs=["id"]))
+        self.assertEqual([p.pixel_hash for p in batch[::2]], [first.pixel_hash] * 2)
+        turned = scene.render(60, azimuth=210, elevation=20, aovs=["id"])
+        self.assertTrue((batch[1].aovs["id"] == turned.aovs["id"]).all())
+        self.assertNotEqual(batch[1].pixel_hash, turned.pixel_hash)
+        setup = scene.setup(60, azimuth=30, elevation=20)
+        cameras = list(scene.render_batch([setup.camera, batch[1].camera], 60))
+        self.assertEqual([p.pixel_hash for p in cameras], [p.pixel_hash for p in batch[:2]])
+
+    def test_wrong_batches_are_refused(self):
+        scene = cube()
+        for keywords, text in (({"camera": FRONT}, "no keyword 'camera'"), ({"out": np.zeros((8, 8, 4), np.uint8)}, "no keyword 'out'")):
+            with self.assertRaisesRegex(TypeError, text):
+                scene.render_batch([FRONT], 8, **keywords)
+        with self.assertRaisesRegex(halflit.UsageError, "light: expected 'fixed' or 'viewer', found 'sun'"):
+            scene.render_batch([FRONT], 8, light="sun")
+        with self.assertRaises(halflit.UsageError):
+            list(scene.render_batch([(0, "up")], 8))
+        self.assertEqual(list(scene.render_batch([], 8)), [])
+
+
 class Memory(unittest.TestCase):
     def test_regions_are_parts(self):
         whole = cube().render((60, 40), aovs=["depth"])

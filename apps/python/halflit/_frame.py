@@ -4,12 +4,14 @@ from __future__ import annotations
 import ctypes
 from typing import Any, Dict, Iterator
 
+import numpy as np
+
 from . import _c
 from ._errors import UsageError, warn
 from ._execution import Execution
 from ._options import KNOWN, apply_settings, check_names, settings_dict
 from ._picture import Picture
-from ._setup import Setup, choose, drawn_camera, exposure_of, kept
+from ._setup import Setup, choose, drawn_camera, exposure_of, given_camera, kept
 from ._target import Target
 from ._values import real, shown
 
@@ -34,15 +36,19 @@ def draw_batch(scene, cameras: list, size, light: str, options: dict) -> Iterato
 
 
 def frames(scene, views: list, size, is_fixed: bool, options: dict) -> Iterator[Picture]:
-    chosen = None
+    """The pictures of render_batch(). All have the size, and if is_fixed the light and exposure, of the first."""
+    first = None
     for view in views:
         with scene._lock:
-            setup = choose(scene, size, {**options, **view})
-            if chosen is not None and is_fixed:
-                setup = Setup(setup._camera, chosen._settings, chosen._lighting, chosen.size)
-            elif chosen is None:
-                chosen = setup
-                size = setup.size
+            given = view.get("camera")
+            if first is not None and is_fixed and given is not None and not isinstance(given, (str, int, np.integer)):
+                setup = first._seen_by(given_camera(given).copy())
+            else:
+                setup = choose(scene, size, {**options, **view})
+                if first is not None and is_fixed:
+                    setup = first._seen_by(setup.camera)
+            if first is None:
+                first, size = setup, setup.size
             picture = draw_setup(scene, setup, options)
         yield picture
 

@@ -18,6 +18,8 @@ def motion(scene, picture, camera, other) -> np.ndarray:
     missing = [name for name in _NEEDED if name not in aovs]
     if missing or drawn is None:
         raise UsageError(f"picture: expected one drawn with aovs {', '.join(_NEEDED)}, found none of {', '.join(missing)}")
+    if picture.settings["region"][2] > 0:
+        raise UsageError("picture: expected one of the whole view, found a region")
     planes = [np.ascontiguousarray(aovs[name], kind) for name, kind in _NEEDED.items()]
     height, width = planes[0].shape
     found = np.empty((height, width, 2), np.float32)

@@ -34,6 +34,10 @@ class Setup:
         """Factor on all light."""
         return self._settings.exposure
 
+    def _seen_by(self, camera: Camera) -> Setup:
+        """The same light and size with another camera."""
+        return Setup(camera, self._settings, self._lighting, self.size)
+
 
 class Request:
     """A halflit_picture_request, with what it points to: a camera in the world that is drawn, and the name of one of the scene."""

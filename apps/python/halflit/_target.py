@@ -40,7 +40,8 @@ class Target:
             if name in DERIVED:
                 plane = plane.copy()
                 if name == "ray":
-                    _c.call("ray_distances", ctypes.byref(camera._c), self.struct.width, self.struct.height, ctypes.byref(region), plane.ctypes.data)
+                    size = self.struct.width, self.struct.height
+                    _c.call("ray_distances", ctypes.byref(camera._c), *size, ctypes.byref(region), plane.ctypes.data)
                 elif name == "view_normal":
                     _c.call("view_normals", ctypes.byref(camera._c), plane.ctypes.data, plane.size // 3)
                 else:

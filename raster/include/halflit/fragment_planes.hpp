@@ -14,9 +14,10 @@
 
 namespace halflit {
 
-/// Turns depths along the view axis into distances from the camera's eye to the same point, along the ray through the pixel's centre.
-/// Infinity stays. The depths of an orthographic camera stay: its rays begin in the plane of its eye. size: of the whole picture. region:
-/// the part that `depth` holds; a width of 0: all. Fails (usage) for a region outside of the picture and for another number of depths.
+/// Turns depths along the view axis into distances from the camera's eye, along the ray through the pixel's centre. With several samples a
+/// pixel, the depth is that of the first one, which lies beside the centre. Infinity stays. The depths of an orthographic camera stay: its
+/// rays begin in the plane of its eye. size: of the whole picture. region: the part that `depth` holds; a width of 0: all. Fails (usage)
+/// for a region outside of the picture and for another number of depths.
 [[nodiscard]] HALFLIT_API Result<void> make_ray_distances(const Camera& camera, PictureSize size, const Region& region,
                                                           std::span<float> depth);
 

@@ -706,10 +706,10 @@ typedef struct halflit_target {
     size_t lights_row_bytes;          ///< stride
     float* coverage;                  ///< share of the samples that an opaque or masked surface covers
     size_t coverage_row_bytes;        ///< stride
-    float* barycentric;               ///< 2 floats a pixel: weights of the triangle's second and third corner; that of the first is 1 - both
-    size_t barycentric_row_bytes;     ///< stride
-    float* uv;                        ///< 2 floats a pixel: texture coordinates, set 0, before a texture's own transform
-    size_t uv_row_bytes;              ///< stride
+    float* barycentric;            ///< 2 floats a pixel: weights of the triangle's second and third corner; that of the first is 1 - both
+    size_t barycentric_row_bytes;  ///< stride
+    float* uv;                     ///< 2 floats a pixel: texture coordinates, set 0, before a texture's own transform
+    size_t uv_row_bytes;           ///< stride
 } halflit_target;
 HALFLIT_C_API int32_t halflit_target_init(halflit_target* target, size_t size);
 
