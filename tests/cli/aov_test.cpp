@@ -16,7 +16,8 @@ using namespace halflit::test;
 
 namespace {
 
-const std::string kAll = "depth,normal,albedo,position,id,coverage,lights";
+const std::string kAll = "depth,normal,albedo,position,id,coverage,lights,ray,view_normal,barycentric,uv,part,mesh,material,triangle,"
+                         "depth16";
 
 std::span<const std::byte> bytes_of(const std::string& file) { return {reinterpret_cast<const std::byte*>(file.data()), file.size()}; }
 
@@ -76,10 +77,13 @@ TEST_CASE("aov: files beside the picture show a sphere as its formula does", "[c
     const Outcome outcome = run({"render", "sphere:200000", "--size", "101x101", "--samples", "1", "--camera-position", "0,0,5",
                                  "--camera-target", "0,0,0", "--aov", kAll, "-o", folder.file("s.png"), "--report", "-"});
     REQUIRE(outcome.code == 0);
-    CHECK(folder.names() == std::vector<std::string>{"s.albedo" + kFloats, "s.coverage.png", "s.depth" + kFloats, "s.id.png",
-                                                     "s.lights.png", "s.normal" + kFloats, "s.png", "s.position" + kFloats});
+    CHECK(folder.names() == std::vector<std::string>{"s.albedo" + kFloats, "s.barycentric" + kFloats, "s.coverage.png", "s.depth" + kFloats,
+                                                     "s.depth16.json", "s.depth16.png", "s.id.png", "s.lights.png", "s.material.png",
+                                                     "s.mesh.png", "s.names.json", "s.normal" + kFloats, "s.part.png", "s.png",
+                                                     "s.position" + kFloats, "s.ray" + kFloats, "s.triangle.png", "s.uv" + kFloats,
+                                                     "s.view_normal" + kFloats});
     const auto report = nlohmann::json::parse(outcome.out);
-    CHECK(report["aov"].size() == 7);
+    CHECK(report["aov"].size() == 18);
     CHECK(report["aov"]["id"] == folder.file("s.id.png"));
     // The middle of the sphere of radius 1: the point (0, 0, 1).
     const auto near = [](const std::vector<float>& found, double x, double y, double z) {
@@ -111,7 +115,7 @@ TEST_CASE("aov: the picture keeps its bytes, and the files have theirs for every
     CHECK(contents(folder.file("a.png")) == contents(folder.file("bare.png")));
     for (const std::string& name : folder.names())
         if (name.starts_with("a.")) CHECK(contents(folder.file(name)) == contents(folder.file(std::string("b").append(name, 1))));
-    CHECK(folder.names().size() == 17);
+    CHECK(folder.names().size() == 39);
 }
 
 TEST_CASE("aov: a scene that is moved and scaled for drawing has the file's own distances and positions", "[cli]") {
@@ -125,6 +129,71 @@ TEST_CASE("aov: a scene that is moved and scaled for drawing has the file's own 
     CHECK(position[0] == 1048576.0f);
     CHECK(position[2] == 4096.0f);
     CHECK(floats_at(folder.file("far.position" + kFloats), 0, 0) == std::vector<float>{0, 0, 0});
+}
+
+TEST_CASE("aov: numbers beyond 65,535, points of triangles and depths of 16 bits are those of a sphere", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"render", "sphere:200000", "--size", "101x101", "--samples", "1", "--camera-position", "0,0,5",
+                                 "--camera-target", "0,0,0", "--aov", "triangle,barycentric,depth,ray,depth16,position", "-o",
+                                 folder.file("s.png"), "--report", "-"});
+    REQUIRE(outcome.code == 0);
+    const auto report = nlohmann::json::parse(outcome.out);
+    const auto range = nlohmann::json::parse(contents(folder.file("s.depth16.json")));
+    CHECK(report["depth16"][0] == range["depth_of_1"]);
+    CHECK(report["depth16"][1] == range["depth_of_65535"]);
+    const auto image = halflit::io::decode_image(bytes_of(contents(folder.file("s.triangle.png"))), {}, false);
+    REQUIRE(image);
+    const auto number = [&](int x, int y) {
+        const std::uint8_t* const p = &image->rgba8[4 * static_cast<std::size_t>(y * 101 + x)];
+        return p[0] + 256 * p[1] + 65536 * p[2] + 16777216 * p[3];
+    };
+    CHECK(number(0, 0) == 0);
+    CHECK(number_at(folder.file("s.depth16.png"), 0, 0) == 0);
+    int most = 0, least_code = 65536, most_code = 0;
+    const double near = range["depth_of_1"], step = (range["depth_of_65535"].get<double>() - near) / 65534;
+    for (int y = 0; y < 101; y += 2)
+        for (int x = 0; x < 101; x += 2) {
+            const int code = number_at(folder.file("s.depth16.png"), x, y);
+            CHECK((code == 0) == (number(x, y) == 0));
+            if (code == 0) continue;
+            most = std::max(most, number(x, y));
+            least_code = std::min(least_code, code), most_code = std::max(most_code, code);
+            const auto depth = static_cast<double>(floats_at(folder.file("s.depth" + kFloats), x, y)[0]);
+            CHECK(std::abs(near + (code - 1) * step - depth) < 0.51 * step + 1e-6);
+            const std::vector<float> at = floats_at(folder.file("s.barycentric" + kFloats), x, y);
+            CHECK(at[0] + at[1] <= 1.000001f);
+            CHECK(at[2] == 0.0f);
+        }
+    CHECK(most > 65535);
+    CHECK(least_code < 100);
+    CHECK(most_code > 60000);
+    CHECK(std::abs(floats_at(folder.file("s.ray" + kFloats), 50, 50)[0] - floats_at(folder.file("s.depth" + kFloats), 50, 50)[0]) < 1e-6f);
+}
+
+TEST_CASE("aov: numbers of parts, meshes and materials are those of the table of names", "[cli]") {
+    const TemporaryFolder folder;
+    std::string model = triangle_at(0, 0);
+    const std::string nodes = R"("nodes":[{"mesh":0}],)";
+    model.replace(model.find(nodes), nodes.size(), R"("nodes":[{"name":"nothing"},{"name":"wing","mesh":0}],"materials":[{"name":"tin"}],)");
+    model.replace(model.find(R"("nodes":[0])"), 11, R"("nodes":[0,1])");
+    model.replace(model.find(R"("POSITION":0}})"), 14, R"("POSITION":0},"material":0})");
+    write_contents(folder.file("wing.gltf"), model);
+    REQUIRE(run({"render", folder.file("wing.gltf"), "--size", "41x41", "--aov", "id,part,mesh,material", "-o", folder.file("w.png"),
+                 "--camera-position", "0,0,5", "--camera-target", "0,0,0"})
+                .code == 0);
+    const auto names = nlohmann::json::parse(contents(folder.file("w.names.json")));
+    const auto at = [&](const char* plane) {
+        return static_cast<std::size_t>(number_at(folder.file(std::string("w.") + plane + ".png"), 20, 20));
+    };
+    REQUIRE(at("id") == 1);
+    CHECK(at("part") == 2);
+    CHECK(at("mesh") == 1);
+    CHECK(at("material") == 1);
+    CHECK(names["parts"][at("part") - 1] == "wing");
+    CHECK(names["materials"][at("material") - 1] == "tin");
+    const auto& instance = names["instances"][at("id") - 1];
+    CHECK((instance["part"] == at("part") && instance["mesh"] == at("mesh") && instance["material"] == at("material")));
+    CHECK(number_at(folder.file("w.part.png"), 0, 0) == 0);
 }
 
 TEST_CASE("aov: names that are not known, a picture without a name, and files of others are refused", "[cli]") {

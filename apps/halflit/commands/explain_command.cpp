@@ -36,7 +36,7 @@ Result<int> run_explain(ExplainOptions options) {
                         fmt::format("--pixel: expected a pixel of the {}x{} picture, found {},{}", job->width, job->height, x, y));
     for (const std::string& warning : job->warnings) print_warning(warning);
     for (const std::string& choice : job->choices) print_detail(choice);
-    const NameOfInstance& name = job->source.node_name;
+    const NameOfInstance name = names_of(job->source.parts);
     Renderer renderer;
     Json report = report_head("explain"), pixels = Json::array();
     std::string text;

@@ -66,7 +66,7 @@ Result<int> run_view(ViewOptions options) {
                     "--click: expected a pixel of the " + std::to_string(job->width) + "x" + std::to_string(job->height) + " picture");
     for (const std::string& warning : job->warnings) print_warning(warning);
     for (const std::string& choice : job->choices) print_detail(choice);
-    const NameOfInstance name = job->source.node_name;
+    const NameOfInstance name = names_of(job->source.parts);
     const auto seen = viewer::run_viewer(std::move(*job), options, options.window);
     if (!seen) return tl::unexpected(seen.error());
     if (options.report.empty()) return 0;

@@ -156,7 +156,7 @@ Result<void> spare_inputs(PictureOptions& options, const RenderJob& job) {
 
 std::vector<std::string> PictureOptions::pictures() const {
     std::vector<std::string> paths{output};
-    for (const Aov aov : aovs) paths.push_back(aov_path(output, aov));
+    for (std::string& path : aov_paths(output, aovs)) paths.push_back(std::move(path));
     return paths;
 }
 
@@ -200,7 +200,7 @@ Result<PictureFile> draw_picture(PictureOptions& options, bool one_of_many) {
 
 Result<void> write_picture(const PictureFile& picture) {
     std::string note = "wrote " + picture.output;
-    for (const AovFile& file : picture.beside) {
+    for (const AovFile& file : picture.beside.files) {
         if (const auto written = io::write_file(file.path, file.bytes); !written) return tl::unexpected(written.error());
         note += ", " + file.path;
     }

@@ -72,7 +72,7 @@ struct FilmFrame {
 struct PictureFile {
     std::string output;
     std::vector<std::uint8_t> bytes;
-    std::vector<AovFile> beside;
+    AovFiles beside;
     std::string report;                ///< JSON, of one line where many pictures are drawn
     bool blank = false;                ///< nothing is seen; false without PictureOptions::blank_check
     std::optional<FilmFrame> frame{};  ///< of a moving picture

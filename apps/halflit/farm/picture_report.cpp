@@ -33,7 +33,8 @@ std::string picture_report(const PictureFile& file, const RenderJob& job, const 
     report["scene"] = job.source.name;
     add_place(report, file);
     if (file.file_hash != 0) report["file_hash"] = fmt::format("{:016x}", file.file_hash);
-    for (const AovFile& aov : file.beside) report["aov"][std::string(kAovNames[static_cast<std::size_t>(aov.aov)])] = aov.path;
+    for (const AovFile& aov : file.beside.files) report["aov"][aov.name] = aov.path;
+    if (const auto& range = file.beside.depth16) report["depth16"] = {range->least, range->most};
     add_frame(report, job, rendered, picture);
     if (const auto& measured = file.measured)
         report["quality"] = {{"codes", measured->asked.codes},     {"asked_percent", measured->asked.percent},

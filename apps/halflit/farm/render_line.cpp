@@ -172,10 +172,7 @@ Command render_table(RenderLine& o) {
            }},
           {"--skip-existing", "", "Leave pictures alone that are there, so that a run can be taken up again", set_to(o.skip_existing)},
           {"--blank-check", "", "Name pictures in which nothing is seen; if there are any, the exit code is 1", set_to(o.blank_check)},
-          {"--aov", "NAME,...",
-           "Also write files beside the picture, as x.depth.exr for x.png: depth, normal, albedo, position as floats (.exr; .pfm without "
-           "OpenEXR); id, coverage, lights as 16-bit PNG",
-           parsed(o.aovs, parse_aovs)},
+          {"--aov", "NAME,...", aov_help(), parsed(o.aovs, parse_aovs)},
           {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error. Of several scenes, one line each",
            read_path(o.report)}}});
     Positional scene = scene_argument(o, false);

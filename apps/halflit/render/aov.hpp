@@ -1,30 +1,72 @@
-// Pictures of what is seen beside the picture of light: depth, normals, base colours, positions, numbers (--aov).
+// Files of what is seen beside the picture of light: depth, normals, base colours, points of triangles, numbers (--aov).
 #pragma once
 
 #include "apps/halflit/render/render_job.hpp"
+#include "halflit/target.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace halflit::cli {
 
-enum class Aov : std::uint8_t { depth, normal, albedo, position, id, coverage, lights };
+/// What a file holds for each pixel.
+enum class AovFormat : std::uint8_t {
+    floats,    ///< one or three floats: .exr, or .pfm where EXR files cannot be written
+    share16,   ///< a share from 0 to 1, of 65535: PNG
+    number16,  ///< a whole number up to 65535: PNG
+    number32,  ///< a whole number: PNG of red, green, blue and alpha, its bytes from the least on
+    depth16,   ///< 0: nothing; else 1 to 65535 from the least to the largest depth of the picture: PNG
+};
 
-/// Indexed by Aov.
-inline constexpr std::string_view kAovNames[] = {"depth", "normal", "albedo", "position", "id", "coverage", "lights"};
+/// A plane in memory: one of the two is used.
+struct AovPlane {
+    std::vector<float> floats;
+    std::vector<std::uint32_t> numbers;
+};
+
+/// One file that --aov can write. The table of them is the only place that names them.
+struct AovKind {
+    std::string_view name;
+    AovFormat format;
+    int channels;                                                   ///< of the plane that is drawn
+    float* Target::*floats = nullptr;                               ///< the plane that is drawn for it,
+    std::uint32_t* Target::*numbers = nullptr;                      ///< or this one
+    Result<void> (*derive)(const RenderJob&, AovPlane&) = nullptr;  ///< makes what is written of what was drawn; null: it is that
+    bool named = false;                                             ///< the numbers have names, which are written beside them
+    std::string_view meaning;                                       ///< for documents
+};
+[[nodiscard]] std::span<const AovKind> aov_kinds();
+
+/// One of aov_kinds().
+using Aov = const AovKind*;
 
 /// "depth,normal" as a list without repeats.
 [[nodiscard]] Result<std::vector<Aov>> parse_aovs(const std::string& text);
 
-/// The file beside a picture: "out.depth.exr" for "out.png"; .pfm where EXR files cannot be written, .png for whole numbers.
-[[nodiscard]] std::string aov_path(const std::string& picture, Aov aov);
+/// Text of --help.
+[[nodiscard]] std::string aov_help();
+
+/// The files beside a picture, such as "out.depth.exr" for "out.png", and those that explain them.
+[[nodiscard]] std::vector<std::string> aov_paths(const std::string& picture, std::span<const Aov> aovs);
 
 struct AovFile {
-    Aov aov;
+    std::string name;  ///< of the AOV, or of the file that explains some
     std::string path;
     std::vector<std::uint8_t> bytes;
+};
+
+/// Depths of the codes 1 and 65535 of depth16.
+struct DepthRange {
+    double least = 0, most = 0;
+};
+
+struct AovFiles {
+    std::vector<AovFile> files;
+    std::optional<DepthRange> depth16;
 };
 
 /// Memory of the planes that a list of AOVs needs.
@@ -37,18 +79,23 @@ public:
 
     /// The files, of a picture that was drawn. Distances and positions are those of the file's own world, turned upright by `up`. Fails
     /// (limit) for numbers that a 16-bit PNG does not hold.
-    [[nodiscard]] Result<std::vector<AovFile>> encode(const std::string& picture, const RenderJob& job);
+    [[nodiscard]] Result<AovFiles> encode(const std::string& picture, const RenderJob& job);
 
 private:
-    [[nodiscard]] bool has(Aov aov) const;
+    struct Drawn {
+        float* Target::*floats;
+        std::uint32_t* Target::*numbers;
+        AovPlane plane;
+    };
+    [[nodiscard]] AovPlane& drawn(float* Target::*floats, std::uint32_t* Target::*numbers, int channels);
     void to_world_of_file(const RenderJob& job);
-    [[nodiscard]] Result<std::vector<std::uint8_t>> encode(Aov aov) const;
-    [[nodiscard]] Result<std::vector<std::uint8_t>> encode_numbers(Aov aov) const;
+    [[nodiscard]] Result<std::vector<std::uint8_t>> encode(const AovKind& aov, const AovPlane& plane, AovFiles& files) const;
+    [[nodiscard]] Result<std::vector<std::uint8_t>> encode16(const AovKind& aov, const AovPlane& plane) const;
+    [[nodiscard]] Result<std::vector<std::uint8_t>> encode_depth16(const std::vector<float>& depth, AovFiles& files) const;
 
     std::vector<Aov> aovs_;
     int width_, height_;
-    std::vector<float> depth_, normal_, albedo_, position_, coverage_;
-    std::vector<std::uint32_t> id_, lights_;
+    std::vector<Drawn> drawn_;
 };
 
 }  // namespace halflit::cli

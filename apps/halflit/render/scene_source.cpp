@@ -17,21 +17,6 @@ Result<LoadedScene> load_file(const RenderOptions& options) {
     return load_model_bytes(*bytes, kStandardInputName, "", load);
 }
 
-/// Copies of the function share the names.
-NameOfInstance node_names(const LoadedScene& loaded) {
-    struct NodeNames {
-        std::vector<std::string> of_nodes;
-        std::vector<int> node_of_instance;
-    };
-    auto names = std::make_shared<NodeNames>();
-    for (const Node& node : loaded.nodes) names->of_nodes.push_back(node.name);
-    names->node_of_instance = loaded.node_of_instance;
-    return [names](std::size_t instance) -> std::string {
-        if (instance >= names->node_of_instance.size()) return "";  // of the program, such as a ground
-        return names->of_nodes[static_cast<std::size_t>(names->node_of_instance[instance])];
-    };
-}
-
 }  // namespace
 
 Result<SceneSource> load_scene(const RenderOptions& options) {
@@ -40,12 +25,15 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
     if (!built_in) return tl::unexpected(built_in.error());
     if (*built_in) {
         turn_upright(**built_in, options.load.up.value_or(UpAxis::y));
-        return SceneSource{.name = name, .scene = std::make_unique<Scene>(std::move(**built_in)), .file = std::nullopt, .warnings = {}};
+        auto scene = std::make_unique<Scene>(std::move(**built_in));
+        auto parts = std::make_shared<Parts>(*scene);
+        return SceneSource{.name = name, .scene = std::move(scene), .file = std::nullopt, .warnings = {}, .parts = std::move(parts)};
     }
     auto loaded = load_file(options);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
         return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
     if (!loaded) return tl::unexpected(loaded.error());
+    auto parts = std::make_shared<Parts>(*loaded);
     return SceneSource{name == "-" ? kStandardInputName : name,
                        std::make_unique<Scene>(std::move(loaded->scene)),
                        std::move(loaded->info),
@@ -54,7 +42,7 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                        loaded->animation,
                        std::move(loaded->placement),
                        std::move(loaded->motion),
-                       node_names(*loaded)};
+                       std::move(parts)};
 }
 
 bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(name) || is_model_name(name) || is_file(name); }

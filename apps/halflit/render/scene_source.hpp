@@ -1,22 +1,19 @@
 // The source of a scene: a file, standard input, or code.
 #pragma once
 
+#include "apps/halflit/render/parts.hpp"
 #include "apps/halflit/render/render_options.hpp"
 #include "halflit/error.hpp"
 #include "halflit/image.hpp"
 #include "halflit/model.hpp"
 #include "halflit/scene.hpp"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace halflit::cli {
-
-/// Name of the file's node that an instance belongs to; empty: it has none. An empty function knows no names.
-using NameOfInstance = std::function<std::string(std::size_t instance)>;
 
 struct SceneSource {
     std::string name;               ///< name for messages: the path, "standard input", or the built-in name
@@ -27,7 +24,7 @@ struct SceneSource {
     int animation = -1;                       ///< the one that poses the scene; -1: none
     Placement placement{};                    ///< where the file's model lies
     std::shared_ptr<const Motion> motion{};   ///< for pose_at(); null without LoadOptions::keep_animations
-    NameOfInstance node_name{};               ///< of the file's nodes
+    std::shared_ptr<Parts> parts;             ///< of the scene as it was loaded, and what was added to them; never null
 };
 
 /// Name of standard input in messages.

@@ -61,7 +61,7 @@ public:
         texts_.exposure = job.settings.exposure;
         origin_ = job.source.placement.origin, scale_ = job.source.placement.scale;
         title_ = "halflit: " + job.source.name;
-        node_name_ = job.source.node_name;
+        node_name_ = cli::names_of(job.source.parts);
         worker_ = std::make_unique<FrameWorker>(std::move(job), options, [this] { wake(); });
     }
 

@@ -38,8 +38,9 @@ struct ScenePose {
 
 /// Planes that name the points of a picture: Target::instance, triangle, barycentric.
 struct SeenPoints {
-    std::span<const std::uint32_t> instance, triangle;
-    std::span<const float> barycentric;  ///< two for each pixel
+    std::span<const std::uint32_t> instance;  ///< one for each pixel
+    std::span<const std::uint32_t> triangle;  ///< one for each pixel
+    std::span<const float> barycentric;       ///< two for each pixel
 };
 
 /// Writes how far each point that is seen moves in the picture, pixels, from the pose that was drawn to another one: x to the right, y
