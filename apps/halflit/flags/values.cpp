@@ -162,6 +162,47 @@ Result<Vec3d> parse_point(std::string_view text) {
     return Vec3d{values[0], values[1], values[2]};
 }
 
+Result<GivenSection> parse_section(std::string_view text) {
+    const auto wrong = [&] { return expected("AXIS=POSITION, as x=0.5, -x=0.5 or y=50%, or four numbers A,B,C,D", text); };
+    GivenSection out;
+    out.text = text;
+    const auto read = [](std::string_view digits) -> std::optional<double> {
+        const auto value = number<double>(digits);
+        return value && std::abs(*value) <= double{kMax} ? value : std::nullopt;
+    };
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) {
+        const auto parts = split(text, ",");
+        if (parts.size() != 4) return wrong();
+        double values[4] = {};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto value = read(parts[i]);
+            if (!value) return wrong();
+            values[i] = *value;
+        }
+        out.normal = {values[0], values[1], values[2]};
+        out.offset = values[3];
+        return out.normal == Vec3d{} ? wrong() : Result<GivenSection>(std::move(out));
+    }
+    std::string_view axis = text.substr(0, equals), place = text.substr(equals + 1);
+    const double sign = axis.starts_with('-') ? -1.0 : 1.0;
+    if (sign < 0.0) axis.remove_prefix(1);
+    if (axis == "x" || axis == "X")
+        out.normal.x = sign;
+    else if (axis == "y" || axis == "Y")
+        out.normal.y = sign;
+    else if (axis == "z" || axis == "Z")
+        out.normal.z = sign;
+    else
+        return wrong();
+    out.is_share = place.ends_with('%');
+    const auto share = out.is_share ? parse_share(place) : Result<double>(0.0);
+    const auto value = out.is_share ? std::optional<double>() : read(place);
+    if (out.is_share ? !share : !value) return wrong();
+    out.offset = out.is_share ? *share : sign * *value;
+    return out;
+}
+
 Result<PictureSize> parse_size(std::string_view text) {
     const auto parts = split(text, "x,");
     const auto side = [](std::string_view part) { return parse_int(part, 1, std::numeric_limits<int>::max()); };

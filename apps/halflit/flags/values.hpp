@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace halflit::cli {
@@ -31,6 +32,18 @@ inline constexpr std::size_t kMib = std::size_t{1} << 20;
 /// Seconds within a year or so of 0.
 [[nodiscard]] Result<double> parse_time(std::string_view text);
 [[nodiscard]] Result<Vec3d> parse_point(std::string_view text);
+
+/// A plane that cuts the scene, as --section gives it.
+struct GivenSection {
+    std::string text{};     ///< as given
+    Vec3d normal{};         ///< towards what is removed, in the file's world with y up
+    double offset = 0.0;    ///< keeps dot(normal, p) <= offset; of a share the share, from 0 to 1
+    bool is_share = false;  ///< the normal is an axis or its opposite, and the plane lies at this share of the scene's size along the axis
+};
+
+/// "AXIS=POSITION" keeps what is below the position on that axis, "-AXIS=POSITION" what is above it; AXIS is x, y or z, POSITION a number
+/// or a share of the size of the scene, "50%". "A,B,C,D" keeps A x + B y + C z <= D.
+[[nodiscard]] Result<GivenSection> parse_section(std::string_view text);
 
 /// "1280x720" or "1280,720", or "256" for a square. Sides from 1 to 2^31 - 1; make_render_job checks the number of pixels.
 [[nodiscard]] Result<PictureSize> parse_size(std::string_view text);

@@ -3,6 +3,7 @@
 #include "apps/halflit/program/stopwatch.hpp"
 #include "apps/halflit/program/timeout.hpp"
 #include "apps/halflit/render/film_view.hpp"
+#include "apps/halflit/render/section_flags.hpp"
 #include "apps/io/files/errno_text.hpp"
 #include "halflit/auto_setup.hpp"
 #include "halflit/camera.hpp"
@@ -289,6 +290,11 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
         const auto swept = swept_bounds(job, options);
         if (!swept) return tl::unexpected(swept.error());
         job.film.bounds = *swept;
+    }
+    if (!options.sections.empty()) {
+        if (moves)
+            return fail(ErrorCode::usage, "--section: cannot be combined with an animation that moves; --time draws one moment of it");
+        if (const auto cut = cut_job(job, options); !cut) return tl::unexpected(cut.error());
     }
     if (options.ground) add_ground(job.scene(), moves ? job.film.bounds : scene_bounds(job.scene()));
 

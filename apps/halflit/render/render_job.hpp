@@ -7,6 +7,7 @@
 #include "halflit/auto_setup.hpp"
 #include "halflit/error.hpp"
 #include "halflit/renderer.hpp"
+#include "halflit/section.hpp"
 
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct RenderJob {
     double pose_time_s = 0;  ///< of the animation, if there is one
     Stopwatch started;       ///< with the job's loading
     double timeout_s = 0.0;  ///< from then on; 0: none
+    SectionReport sections;  ///< of the flags' planes
     Film film;               ///< what the frames of a moving picture share
     std::vector<std::string> warnings;
     std::vector<std::string> choices;  ///< what was chosen, one line each

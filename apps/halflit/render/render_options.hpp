@@ -36,6 +36,9 @@ struct RenderOptions {
     bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation, --zoom, --fit or --view was given
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
+    std::vector<GivenSection> sections{};                 ///< planes that cut the scene
+    double hatch_spacing = 0.0;                           ///< of caps, in the file's world; 0: chosen
+    bool hatch = true;                                    ///< lines on caps
     bool ground = false;                                  ///< add a ground that only takes shadow
 
     /// A camera of the flags, not of the file.

@@ -2,6 +2,7 @@
 
 #include "apps/halflit/flags/plan_names.hpp"
 #include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/render/section_flags.hpp"
 #include "apps/io/files/text.hpp"
 #include "halflit/version.hpp"
 #include "sh/time_limit.hpp"
@@ -101,6 +102,17 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
             uses.push_back(std::move(one));
         }
         report["environment"] = std::move(uses);
+    }
+    if (!job.sections.cuts.empty()) {
+        Json sections = Json::array();
+        for (const SectionCut& cut : job.sections.cuts)
+            sections.push_back({{"plane", cut.plane},
+                                {"part", cut.part},
+                                {"name", cut_name(job, cut)},
+                                {"area", file_area(job, cut)},
+                                {"closed", cut.closed},
+                                {"open_ends", cut.open_ends}});
+        report["sections"] = std::move(sections);
     }
     report["warnings"] = job.warnings;
     for (const std::string& warning : rendered.warnings) report["warnings"].push_back(warning);

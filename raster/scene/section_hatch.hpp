@@ -1,0 +1,27 @@
+// Materials of caps.
+#pragma once
+
+#include "halflit/scene.hpp"
+#include "halflit/section.hpp"
+
+namespace halflit::raster {
+
+/// Texture coordinates of a point of a cap are hatch_scale() times its coordinates in the plane.
+[[nodiscard]] double hatch_scale(double spacing, int part);
+
+/// Adds materials of caps to a scene, and the textures of hatches with the first ones.
+class CapMaterials {
+public:
+    CapMaterials(Scene& scene, bool hatch) : scene_(scene), hatch_(hatch) {}
+    /// Index of a new material: rough, not metallic, in the colour of the instance. color: factor for the mesh's colours.
+    [[nodiscard]] int add(const Instance& instance, Vec3f color, int part);
+
+private:
+    [[nodiscard]] int texture(bool falls);
+
+    Scene& scene_;
+    bool hatch_;
+    int textures_[2] = {-1, -1};
+};
+
+}  // namespace halflit::raster
