@@ -1,6 +1,7 @@
 #include "raster/scene/section_fill.hpp"
 
 #include "raster/scene/section_grid.hpp"
+#include "raster/scene/section_refine.hpp"
 #include "raster/scene/section_sweep.hpp"
 #include "raster/scene/section_triangulate.hpp"
 
@@ -129,6 +130,7 @@ PlaneFill fill_segments(const std::vector<Vec2<double>>& points, const std::vect
         fill.too_complex = true;
         return fill;
     }
+    refine(corners, fill.triangles);
     fill.points.reserve(corners.size());
     for (const GridPoint p : corners) fill.points.push_back(grid.point(p));
     double doubled = 0.0;

@@ -14,7 +14,7 @@ struct PlaneSegment {
     std::uint32_t from = 0, to = 0;
 };
 
-/// A corner of a filled region. source: index of the point of the list that lies there; -1: a crossing of segments.
+/// A corner of a filled region. source: index of the point of the list that lies there; -1: a crossing of segments, or a point inside.
 struct FillPoint {
     Vec2<double> at;
     std::int64_t source = -1;

@@ -236,14 +236,17 @@ TEST_CASE("section: an open body is said to be open and has no cap, a closed one
         CHECK(report.cuts[0].area == 0.0);
         CHECK(report.cuts[0].cap == -1);
         CHECK(report.instances_cut == 1);
-        Scene both = scene_of({{joined(open, make_box({0.5f, 0.5f, 0.5f}), {5, 5, 5}), Mat4{}}});
-        const SectionReport two = cut(both, {{normal, 0.1}});
-        CHECK_FALSE(two.cuts[0].closed);
-        Scene mixed = scene_of({{joined(open, make_box({0.5f, 0.5f, 0.5f}), {3, 3, 3}), Mat4{}}, {make_box({1, 1, 1}), Mat4{}}});
+        // A closed box of the same part is capped all the same.
+        const double along = dot(normal, Vec3d{0.1, 0.1, 0.1});
+        const Mat4 aside = translation(to_float(Vec3d{along, along, along} + (Vec3d{1, 1, 1} - normal) * 4.0));
+        Scene both = scene_of({{open, Mat4{}}, {make_box({0.5f, 0.5f, 0.5f}), aside}});
         const int one_part[] = {4, 4};
-        const SectionReport capped = cut(mixed, {{normal, 0.1}}, one_part);
+        const SectionReport capped = cut(both, {{normal, 0.1}}, one_part);
         REQUIRE(capped.cuts.size() == 1);
         CHECK(capped.cuts[0].part == 4);
+        CHECK_FALSE(capped.cuts[0].closed);
+        CHECK(capped.cuts[0].cap == 2);
+        CHECK(capped.area() == Approx(1.0).epsilon(1e-6));
     }
     CHECK(found_open);
 }
@@ -483,6 +486,33 @@ TEST_CASE("section: segments that cross everywhere are filled, or said to be too
         CHECK(wrong == 0);
         CHECK(inside > 50);
     }
+}
+
+TEST_CASE("section: a finely cut disc has triangles of good shape", "[raster][section]") {
+    std::vector<Vec2<double>> points;
+    std::vector<PlaneSegment> segments;
+    constexpr std::uint32_t kPoints = 2000;
+    for (std::uint32_t i = 0; i < kPoints; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kPoints;
+        points.push_back({std::cos(angle), std::sin(angle)});
+        segments.push_back({i, (i + 1) % kPoints});
+    }
+    const PlaneFill fill = fill_segments(points, segments);
+    CHECK(fill.area == Approx(ngon_area(kPoints)).epsilon(1e-9));
+    CHECK(fill.points.size() < 4 * kPoints);
+    double thin = 0.0, sum = 0.0;
+    for (std::size_t t = 0; t + 2 < fill.triangles.size(); t += 3) {
+        const auto at = [&](std::size_t c) { return fill.points[fill.triangles[t + c % 3]].at; };
+        const Vec2<double> b = at(1) - at(0), c = at(2) - at(0);
+        const double area = 0.5 * (b.x * c.y - b.y * c.x);
+        double longest = 0.0;
+        for (std::size_t s = 0; s < 3; ++s) longest = std::max(longest, std::hypot(at(s + 1).x - at(s).x, at(s + 1).y - at(s).y));
+        sum += area;
+        CHECK(area >= 0.0);
+        if (longest * longest > 20.0 * area) thin += area;  // its height is below a tenth of its longest side
+    }
+    CHECK(sum == Approx(fill.area).epsilon(1e-9));
+    CHECK(thin < 0.01 * sum);
 }
 
 TEST_CASE("section: wrong planes, settings, parts and meshes are refused and leave the scene as it is", "[raster][section]") {
