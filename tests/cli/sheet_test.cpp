@@ -10,7 +10,7 @@ using namespace halflit::test;
 
 namespace {
 
-constexpr int kGap = 8, kLabel = 22;  // of the page
+constexpr int kGap = 8, kLabel = 22, kSecondLine = 18;  // of the page
 
 /// Number of pixels of a cell's picture that are not those of `expected`.
 int wrong_pixels(const Picture& sheet, int x0, int y0, const Picture& expected) {
@@ -40,16 +40,17 @@ TEST_CASE("sheet: each cell has the pixels that render gives, and a name", "[cli
     REQUIRE(run(flags).code == 0);
     const Picture sheet = read_picture(contents(folder.file("sheet.png")));
     REQUIRE(sheet.width == kGap + 2 * (60 + kGap));
-    REQUIRE(sheet.height == kGap + 2 * (40 + kLabel + kGap));
+    constexpr int kNames = kLabel + kSecondLine;  // "sphere:500" is wider than a cell, so all have two lines
+    REQUIRE(sheet.height == kGap + 2 * (40 + kNames + kGap));
     for (int i = 0; i < 3; ++i) {
         CAPTURE(i);
         const Picture alone =
             read_picture(run({"render", scenes[static_cast<std::size_t>(i)], "--size", "60x40", "--lobe", "sloan", "-o", "-"}).out);
-        const int x = kGap + i % 2 * (60 + kGap), y = kGap + i / 2 * (40 + kLabel + kGap);
+        const int x = kGap + i % 2 * (60 + kGap), y = kGap + i / 2 * (40 + kNames + kGap);
         CHECK(wrong_pixels(sheet, x, y, alone) == 0);
-        CHECK(marks(sheet, x, y + 40, 60, kLabel) > 20);
+        CHECK(marks(sheet, x, y + 40, 60, kNames) > 20);
     }
-    CHECK(marks(sheet, kGap + 60 + kGap, kGap + 40 + kLabel + kGap, 60, 40 + kLabel) == 0);  // there is no fourth
+    CHECK(marks(sheet, kGap + 60 + kGap, kGap + 40 + kNames + kGap, 60, 40 + kNames) == 0);  // there is no fourth
 }
 
 TEST_CASE("sheet: a scene that fails has its line in its cell, the others are drawn, and the exit code is the first failure's", "[cli]") {

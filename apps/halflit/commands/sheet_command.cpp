@@ -116,24 +116,26 @@ Result<int> run_sheet(const SheetOptions& options) {
         references.push_back(options.references.empty() ? "" : find_reference(scene, options.references));
     const bool any_reference = std::any_of(references.begin(), references.end(), [](const auto& path) { return !path.empty(); });
     const PictureSize size = options.size.value_or(kSheetSize);
-    const SheetLayout layout = sheet_layout(options.scenes.size(), size, any_reference, options.columns);
-    if (layout.width() * layout.height() > kMaxImagePixels)
-        return fail(ErrorCode::limit, fmt::format("a sheet of {}x{} is more than 2^28 pixels", layout.width(), layout.height()));
+    const std::vector<std::string> names = names_of(options.scenes);
+    SheetLayout cells{.picture = size, .references = any_reference};
+    for (const std::string& name : names)
+        cells.lines = std::max(cells.lines, static_cast<int>(name_lines(name, cells.cell_width()).size()));
+    const auto layout = sheet_layout(cells, options.scenes.size(), options.columns);
+    if (!layout) return tl::unexpected(layout.error());
     if (const auto spared = spare_inputs(options, references); !spared) return tl::unexpected(spared.error());
     if (const auto checked = check_writable(options.output); !checked) return tl::unexpected(checked.error());
     if (options.max_memory_bytes == 0) prepare_heap();
 
-    SheetPage page(layout);
+    SheetPage page(*layout);
     int code = 0;
     const auto failed = [&](const Error& error) {
         print_error(error.message);
         if (code == 0) code = static_cast<int>(error.code);
     };
-    const std::vector<std::string> names = names_of(options.scenes);
     for (std::size_t i = 0; i < options.scenes.size(); ++i) {
         SheetOptions one = options;
         one.scene = options.scenes[i];
-        page.add_name(i, names[i]);
+        page.add_lines(i, name_lines(names[i], layout->cell_width()), Align::middle);
         if (const auto picture = draw(one, names[i], size)) {
             page.add_picture(i, *picture, false);
         } else {

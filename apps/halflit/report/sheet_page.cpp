@@ -1,8 +1,10 @@
 #include "apps/halflit/report/sheet_page.hpp"
 
-#include "apps/halflit/report/line_text.hpp"
+#include "halflit/image.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/model/srgb.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +13,9 @@
 
 namespace halflit::cli {
 namespace {
+
+constexpr Color kPage{0x1f, 0x22, 0x27}, kErrorPage{0x3a, 0x20, 0x20}, kErrorText{0xff, 0xb0, 0xa0}, kNoteText{0xa8, 0xae, 0xb8};
+constexpr int kBaseLine = 14;  // from the top of a line of text, pixels
 
 /// Part of a source line that one pixel of a smaller line covers.
 struct Span {
@@ -69,18 +74,19 @@ std::vector<std::uint8_t> codes_of(const std::vector<std::array<float, 4>>& ligh
 
 }  // namespace
 
-SheetLayout sheet_layout(std::size_t count, PictureSize picture, bool references, int columns) {
-    SheetLayout layout{picture, references};
-    const auto cells = static_cast<int>(count);
-    const auto rows_of = [&](int n) { return (cells + n - 1) / n; };
+Result<SheetLayout> sheet_layout(SheetLayout cells, std::size_t count, int columns) {
+    const auto most = static_cast<int>(std::clamp<std::size_t>(count, 1, kMaxImagePixels));
+    const auto rows_of = [&](int n) { return (most - 1) / n + 1; };
     if (columns == 0)
-        for (columns = 1; columns < cells; ++columns) {
-            layout.columns = columns, layout.rows = rows_of(columns);
-            if (2 * layout.width() >= 3 * layout.height()) break;
+        for (columns = 1; columns < most; ++columns) {
+            cells.columns = columns, cells.rows = rows_of(columns);
+            if (2 * cells.width() >= 3 * cells.height()) break;
         }
-    layout.columns = std::min(columns, std::max(cells, 1));
-    layout.rows = rows_of(layout.columns);
-    return layout;
+    cells.columns = std::min(columns, most);
+    cells.rows = rows_of(cells.columns);
+    if (cells.width() > kMaxImagePixels / cells.height())
+        return fail(ErrorCode::limit, fmt::format("a sheet of {}x{} is more than 2^28 pixels", cells.width(), cells.height()));
+    return cells;
 }
 
 Image scaled_to_fit(const Image& picture, PictureSize size) {
@@ -112,59 +118,71 @@ Image scaled_to_fit(const Image& picture, PictureSize size) {
     return {width, height, codes_of(small), {}};
 }
 
-SheetPage::SheetPage(const SheetLayout& layout) : layout_(layout) {
-    image_.width = static_cast<int>(layout.width());
-    image_.height = static_cast<int>(layout.height());
-    image_.rgba8.assign(4 * static_cast<std::size_t>(layout.width()) * static_cast<std::size_t>(layout.height()), 255);
-    fill(0, 0, image_.width, image_.height, {0x1f, 0x22, 0x27});
+std::vector<std::string> name_lines(const std::string& name, int cell_width) {
+    return wrapped_lines(name, kTextSize, cell_width, 2, Cut::middle);
 }
 
-void SheetPage::fill(int x, int y, int width, int height, Color color) {
-    const int x1 = std::min(x + width, image_.width), y1 = std::min(y + height, image_.height);
-    for (int row = std::max(y, 0); row < y1; ++row)
-        for (int column = std::max(x, 0); column < x1; ++column) {
-            std::uint8_t* p = &image_.rgba8[4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image_.width) +
-                                                 static_cast<std::size_t>(column))];
-            p[0] = color.r, p[1] = color.g, p[2] = color.b;
-        }
-}
-
-void SheetPage::write(int x, int y, const std::string& text, int scale, Color color) {
-    for (const TextBar& bar : text_bars(text)) fill(x + scale * bar.x, y + scale * bar.y, scale * bar.width, scale * bar.height, color);
-}
+SheetPage::SheetPage(const SheetLayout& layout)
+    : layout_(layout), canvas_(static_cast<int>(layout.width()), static_cast<int>(layout.height()), kPage) {}
 
 void SheetPage::add_picture(std::size_t cell, const Image& picture, bool is_reference) {
-    const int place_x = layout_.x_of(cell) + (is_reference ? layout_.picture.width + SheetLayout::kGap : 0);
-    const int x0 = place_x + (layout_.picture.width - picture.width) / 2;
-    const int y0 = layout_.y_of(cell) + (layout_.picture.height - picture.height) / 2;
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) {
-            const std::uint8_t* from =
-                &picture.rgba8[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x))];
-            std::uint8_t* to = &image_.rgba8[4 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(image_.width) +
-                                                  static_cast<std::size_t>(x0 + x))];
-            const unsigned alpha = from[3];
-            for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>((from[c] * alpha + to[c] * (255u - alpha) + 127u) / 255u);
-        }
+    const int x = layout_.x_of(cell) + (is_reference ? layout_.picture.width + SheetLayout::kGap : 0);
+    canvas_.put(x + (layout_.picture.width - picture.width) / 2, layout_.y_of(cell) + (layout_.picture.height - picture.height) / 2,
+                picture);
 }
 
 void SheetPage::add_error(std::size_t cell, const std::string& message) {
     constexpr int kInset = 6;
-    const int x = layout_.x_of(cell), y = layout_.y_of(cell);
-    fill(x, y, layout_.picture.width, layout_.picture.height, {0x3a, 0x20, 0x20});
-    const int lines = (layout_.picture.height - 2 * kInset) / kTextHeight;
-    int line = 0;
-    for (const std::string& text : wrapped_lines(message, layout_.picture.width - 2 * kInset)) {
-        if (line == lines) break;
-        write(x + kInset, y + kInset + kTextHeight * line++, text, 1, {0xff, 0xb0, 0xa0});
+    const double x = layout_.x_of(cell), y = layout_.y_of(cell);
+    canvas_.fill_box({x, y}, layout_.picture.width, layout_.picture.height, kErrorPage);
+    const auto most = static_cast<std::size_t>(std::max(0, layout_.picture.height - 2 * kInset) / SheetLayout::kLine);
+    double base = y + kInset + kBaseLine;
+    for (const std::string& line : wrapped_lines(message, kSmallTextSize, layout_.picture.width - 2 * kInset, most, Cut::end)) {
+        draw_text(canvas_, {x + kInset, base}, line, {kSmallTextSize, kErrorText});
+        base += SheetLayout::kLine;
     }
 }
 
-void SheetPage::add_name(std::size_t cell, const std::string& name) {
-    const int width = layout_.cell_width(), scale = 2 * text_width(name) <= width ? 2 : 1;
-    const std::string shown = cut_to_width(name, width / scale);
-    const int x = layout_.x_of(cell) + (width - scale * text_width(shown)) / 2;
-    write(x, layout_.y_of(cell) + layout_.picture.height + (scale == 2 ? 3 : 7), shown, scale, {0xe6, 0xe6, 0xe6});
+void SheetPage::add_title(std::size_t cell, const std::string& title, const std::string& note) {
+    const double x = layout_.x_of(cell), width = layout_.cell_width(), base = layout_.y_of(cell) - layout_.above() + kBaseLine;
+    const std::string shown_note = cut_to_width(note, kSmallTextSize, width / 2, Cut::end);
+    draw_text(canvas_, {x + width, base}, shown_note, {kSmallTextSize, kNoteText, Align::right});
+    const double note_width = shown_note.empty() ? 0 : width_of_text(shown_note, kSmallTextSize) + SheetLayout::kGap;
+    draw_text(canvas_, {x, base}, cut_to_width(title, kTextSize, width - note_width, Cut::middle), {});
+}
+
+void SheetPage::add_lines(std::size_t cell, const std::vector<std::string>& lines, Align align) {
+    const int width = layout_.cell_width();
+    const double share = align == Align::left ? 0 : align == Align::middle ? 0.5 : 1;
+    Point at{layout_.x_of(cell) + share * width,
+             static_cast<double>(layout_.y_of(cell) + layout_.picture.height + SheetLayout::kAbove + kBaseLine)};
+    for (std::size_t i = 0; i < lines.size() && i < static_cast<std::size_t>(layout_.lines); ++i, at.y += SheetLayout::kLine)
+        draw_text(canvas_, at, cut_to_width(lines[i], kTextSize, width, Cut::end), {.align = align});
+}
+
+void SheetPage::add_footer(const std::string& text) {
+    const int width = canvas_.image().width - 2 * SheetLayout::kGap;
+    draw_text(canvas_, {double{SheetLayout::kGap}, static_cast<double>(canvas_.image().height - SheetLayout::kGap)},
+              cut_to_width(text, kSmallTextSize, width, Cut::end), {kSmallTextSize, kNoteText});
+}
+
+Result<Image> lay_out(std::span<const SheetCell> cells, int columns, const std::string& footer) {
+    SheetLayout shape{.lines = 0, .footer = !footer.empty()};
+    for (const SheetCell& cell : cells) {
+        shape.picture = {std::max(shape.picture.width, cell.picture.width), std::max(shape.picture.height, cell.picture.height)};
+        shape.titles = shape.titles || !cell.title.empty() || !cell.note.empty();
+        shape.lines = std::max(shape.lines, static_cast<int>(cell.lines.size()));
+    }
+    const auto layout = sheet_layout(shape, cells.size(), columns);
+    if (!layout) return tl::unexpected(layout.error());
+    SheetPage page(*layout);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        page.add_title(i, cells[i].title, cells[i].note);
+        page.add_picture(i, cells[i].picture, false);
+        page.add_lines(i, cells[i].lines, Align::left);
+    }
+    page.add_footer(footer);
+    return page.image();
 }
 
 }  // namespace halflit::cli

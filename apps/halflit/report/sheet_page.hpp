@@ -1,37 +1,51 @@
-// The page of a contact sheet: pictures in a grid, with names below them.
+// A page of pictures in a grid, with text: the contact sheet of `halflit sheet`, and pages of labelled cells for other commands.
 #pragma once
 
 #include "apps/halflit/flags/values.hpp"
-#include "halflit/target.hpp"
+#include "apps/halflit/report/canvas.hpp"
+#include "apps/halflit/report/lettering.hpp"
+#include "halflit/error.hpp"
 
 #include <cstddef>
-#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace halflit::cli {
 
-/// Places of the cells. A cell has a picture, and beside it a reference if any cell has one; its name is below.
+/// Places of the cells. A cell has a title, a picture, beside it a reference if any cell has one, and lines of text below.
 struct SheetLayout {
-    PictureSize picture;      ///< largest size of a picture
+    PictureSize picture{};    ///< largest size of a picture
     bool references = false;  ///< cells have room for two pictures
+    bool titles = false;      ///< cells have a title above the picture
+    int lines = 1;            ///< of text below the picture
+    bool footer = false;      ///< the page has a line of text at its end
     int columns = 1, rows = 1;
 
-    static constexpr int kGap = 8;     ///< around cells, and between a picture and its reference, pixels
-    static constexpr int kLabel = 22;  ///< height of a name, pixels
+    static constexpr int kGap = 8;    ///< around cells, and between a picture and its reference, pixels
+    static constexpr int kLine = 18;  ///< height of a line of text, pixels
+    static constexpr int kAbove = 4;  ///< pixels above the lines of text
+    static constexpr int kLabel = kAbove + kLine;
 
     [[nodiscard]] int cell_width() const { return references ? 2 * picture.width + kGap : picture.width; }
+    [[nodiscard]] int above() const { return titles ? kLabel : 0; }
+    [[nodiscard]] int cell_height() const { return above() + picture.height + (lines > 0 ? kAbove + lines * kLine : 0); }
     [[nodiscard]] std::int64_t width() const { return kGap + std::int64_t{columns} * (cell_width() + kGap); }
-    [[nodiscard]] std::int64_t height() const { return kGap + std::int64_t{rows} * (picture.height + kLabel + kGap); }
-    /// Upper left corner of cell i, counted row by row.
+    [[nodiscard]] std::int64_t height() const { return kGap + std::int64_t{rows} * (cell_height() + kGap) + (footer ? kLabel : 0); }
+    /// Upper left corner of the picture of cell i, counted row by row.
     [[nodiscard]] int x_of(std::size_t i) const { return kGap + static_cast<int>(i) % columns * (cell_width() + kGap); }
-    [[nodiscard]] int y_of(std::size_t i) const { return kGap + static_cast<int>(i) / columns * (picture.height + kLabel + kGap); }
+    [[nodiscard]] int y_of(std::size_t i) const { return kGap + static_cast<int>(i) / columns * (cell_height() + kGap) + above(); }
 };
 
-/// The layout of `count` cells; columns 0: as many as give a page about half as wide again as it is high.
-[[nodiscard]] SheetLayout sheet_layout(std::size_t count, PictureSize picture, bool references, int columns);
+/// A layout with columns and rows for `count` cells. columns 0: as many as give a page about half as wide again as it is high. Fails if the
+/// page has more than kMaxImagePixels.
+[[nodiscard]] Result<SheetLayout> sheet_layout(SheetLayout cells, std::size_t count, int columns);
 
 /// A picture of at most this size: larger ones are scaled by the mean over each pixel's area, in linear light. The aspect ratio stays.
 [[nodiscard]] Image scaled_to_fit(const Image& picture, PictureSize size);
+
+/// The lines of a name below a picture: two at most, with an ellipsis in the middle of the second if it is longer.
+[[nodiscard]] std::vector<std::string> name_lines(const std::string& name, int cell_width);
 
 class SheetPage {
 public:
@@ -41,20 +55,25 @@ public:
     void add_picture(std::size_t cell, const Image& picture, bool is_reference);
     /// Fills the picture's place with a message.
     void add_error(std::size_t cell, const std::string& message);
-    void add_name(std::size_t cell, const std::string& name);
+    /// Above the picture: a title on the left, and on the right a note, which takes at most half of the width.
+    void add_title(std::size_t cell, const std::string& title, const std::string& note);
+    /// Below the picture; lines that are wider than the cell are cut. Lines past layout.lines are left out.
+    void add_lines(std::size_t cell, const std::vector<std::string>& lines, Align align);
+    void add_footer(const std::string& text);
 
-    [[nodiscard]] const Image& image() const { return image_; }
+    [[nodiscard]] const Image& image() const { return canvas_.image(); }
 
 private:
-    struct Color {
-        std::uint8_t r, g, b;
-    };
-    void fill(int x, int y, int width, int height, Color color);
-    /// Writes one line; `scale` is the width of a stroke in pixels.
-    void write(int x, int y, const std::string& text, int scale, Color color);
-
     SheetLayout layout_;
-    Image image_;
+    Canvas canvas_;
 };
+
+struct SheetCell {
+    std::string title, note;  ///< above the picture, on the left and on the right; of all cells or of none
+    Image picture;
+    std::vector<std::string> lines;  ///< below it
+};
+/// A page of cells. All have the size of the largest picture and the most lines. columns 0: chosen, as by sheet_layout.
+[[nodiscard]] Result<Image> lay_out(std::span<const SheetCell> cells, int columns, const std::string& footer);
 
 }  // namespace halflit::cli
