@@ -11,8 +11,8 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::uint32_t kBorder = 0xffffffffu;
-/// A triangle is thin if the radius of the circle around it is more than this times its shortest edge. Above 1, a new corner is farther from
-/// all others than they were, so the work ends.
+/// A triangle is thin if the radius of the circle around it is more than this times its shortest edge. Above 1, a new corner is farther
+/// from all others than they were, so the work ends.
 constexpr double kThin = 1.5;
 constexpr std::int64_t kShortest = 64;  // edges below, in units of the grid, are left as they are: rounding would decide
 
@@ -21,7 +21,8 @@ double squared_distance(GridPoint a, GridPoint b) {
     return x * x + y * y;
 }
 
-/// Above 0: d is in the circle around a, b, c, counter-clockwise. In double: a wrong sign near 0 gives another triangulation, but a valid one.
+/// Above 0: d is in the circle around a, b, c, counter-clockwise. In double: a wrong sign near 0 gives another triangulation, but a valid
+/// one.
 double in_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
     const double ax = static_cast<double>(a.x) - d.x, ay = static_cast<double>(a.y) - d.y;
     const double bx = static_cast<double>(b.x) - d.x, by = static_cast<double>(b.y) - d.y;

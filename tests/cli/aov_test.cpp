@@ -16,8 +16,9 @@ using namespace halflit::test;
 
 namespace {
 
-const std::string kAll = "depth,normal,albedo,position,id,coverage,lights,ray,view_normal,barycentric,uv,part,mesh,material,triangle,"
-                         "depth16";
+const std::string kAll =
+    "depth,normal,albedo,position,id,coverage,lights,ray,view_normal,barycentric,uv,part,mesh,material,triangle,"
+    "depth16";
 
 std::span<const std::byte> bytes_of(const std::string& file) { return {reinterpret_cast<const std::byte*>(file.data()), file.size()}; }
 
@@ -133,9 +134,9 @@ TEST_CASE("aov: a scene that is moved and scaled for drawing has the file's own 
 
 TEST_CASE("aov: numbers beyond 65,535, points of triangles and depths of 16 bits are those of a sphere", "[cli]") {
     const TemporaryFolder folder;
-    const Outcome outcome = run({"render", "sphere:200000", "--size", "101x101", "--samples", "1", "--camera-position", "0,0,5",
-                                 "--camera-target", "0,0,0", "--aov", "triangle,barycentric,depth,ray,depth16,position", "-o",
-                                 folder.file("s.png"), "--report", "-"});
+    const Outcome outcome =
+        run({"render", "sphere:200000", "--size", "101x101", "--samples", "1", "--camera-position", "0,0,5", "--camera-target", "0,0,0",
+             "--aov", "triangle,barycentric,depth,ray,depth16,position", "-o", folder.file("s.png"), "--report", "-"});
     REQUIRE(outcome.code == 0);
     const auto report = nlohmann::json::parse(outcome.out);
     const auto range = nlohmann::json::parse(contents(folder.file("s.depth16.json")));
@@ -174,7 +175,8 @@ TEST_CASE("aov: numbers of parts, meshes and materials are those of the table of
     const TemporaryFolder folder;
     std::string model = triangle_at(0, 0);
     const std::string nodes = R"("nodes":[{"mesh":0}],)";
-    model.replace(model.find(nodes), nodes.size(), R"("nodes":[{"name":"nothing"},{"name":"wing","mesh":0}],"materials":[{"name":"tin"}],)");
+    model.replace(model.find(nodes), nodes.size(),
+                  R"("nodes":[{"name":"nothing"},{"name":"wing","mesh":0}],"materials":[{"name":"tin"}],)");
     model.replace(model.find(R"("nodes":[0])"), 11, R"("nodes":[0,1])");
     model.replace(model.find(R"("POSITION":0}})"), 14, R"("POSITION":0},"material":0})");
     write_contents(folder.file("wing.gltf"), model);

@@ -343,9 +343,9 @@ FlagGroup line_flags(RenderOptions& o) {
 
 /// The flags that decide the picture and its speed.
 std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
-    std::vector<FlagGroup> groups{picture_flags(o, usual), camera_flags(o),  pose_flags(o), section_flags(o), light_flags(o),   environment_flags(o),
-                                  shadow_flags(o),         surface_flags(o), line_flags(o), {"Accuracy", {}}, machine_flags(o.execution),
-                                  untrusted_file_flags(o)};
+    std::vector<FlagGroup> groups{picture_flags(o, usual),    camera_flags(o),        pose_flags(o),    section_flags(o), light_flags(o),
+                                  environment_flags(o),       shadow_flags(o),        surface_flags(o), line_flags(o),    {"Accuracy", {}},
+                                  machine_flags(o.execution), untrusted_file_flags(o)};
     for (FlagGroup& group : groups) add_setting_flags(group, o.settings, o.given_settings);
     return groups;
 }
