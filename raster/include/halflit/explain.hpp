@@ -35,23 +35,23 @@ struct SurfaceOnRay {
 
 /// A texture at the point that the pixel shows.
 struct TextureAt {
-    TextureSlot slot = TextureSlot::base_color;
-    int texture = -1;                   ///< into Scene::textures
-    int uv_set = 0;                     ///< 0 or 1
-    double u = 0, v = 0;                ///< after the material's transform
+    TextureSlot slot = TextureSlot::base_color;  ///< of the material
+    int texture = -1;                            ///< into Scene::textures
+    int uv_set = 0;                              ///< 0 or 1
+    double u = 0, v = 0;                         ///< after the material's transform
     std::array<double, 4> full_size{};  ///< linear red, green, blue and alpha there, in [0, 1]; the picture may read smaller levels
 };
 
 /// One of the scene's lights at the pixel.
 struct LightShare {
-    std::size_t index = 0;  ///< into Lighting::all_lights()
-    LightType type = LightType::directional;
-    double distance = 0;             ///< from the surface, world units; 0 for directional lights
-    double cosine = 0;               ///< N.L
-    double lobe = 0;                 ///< value of the material's lobe there
-    double lambert = 0;              ///< max(0, N.L)
-    Rgb3 linear{};                   ///< its light in the pixel
-    std::optional<double> unhidden;  ///< its light over that without shadows, in [0, 1]; none: it has no light here anyway
+    std::size_t index = 0;                    ///< into Lighting::all_lights()
+    LightType type = LightType::directional;  ///< of the light
+    double distance = 0;                      ///< from the surface, world units; 0 for directional lights
+    double cosine = 0;                        ///< N.L
+    double lobe = 0;                          ///< value of the material's lobe there
+    double lambert = 0;                       ///< max(0, N.L)
+    Rgb3 linear{};                            ///< its light in the pixel
+    std::optional<double> unhidden;           ///< its light over that without shadows, in [0, 1]; none: it has no light here anyway
     /// The nearest triangle that hides the light, on the ray from the surface to the light's middle; none: nothing hides it. The picture is
     /// decided by shadow maps, not by this ray: near the edge of a shadow the two may differ.
     std::optional<SurfaceOnRay> hidden_by;
@@ -69,14 +69,14 @@ enum class BackgroundKind : std::uint8_t { transparent, color, environment };
 
 /// All about one pixel.
 struct PixelStory {
-    int x = 0, y = 0;  ///< from the upper left corner of the picture
-    PictureSize size;  ///< of the picture
-    PixelShows shows = PixelShows::background;
-    BackgroundKind background_kind = BackgroundKind::transparent;
-    std::array<int, 4> codes{};  ///< red, green, blue, alpha, 0 to 255
-    Rgb3 linear{};               ///< before the tone curve, not multiplied by alpha
-    double alpha = 0;            ///< in [0, 1]
-    double coverage = 0;         ///< share of the pixel's samples that opaque or masked surfaces cover
+    int x = 0, y = 0;                                              ///< from the upper left corner of the picture
+    PictureSize size;                                              ///< of the picture
+    PixelShows shows = PixelShows::background;                     ///< at the first sample
+    BackgroundKind background_kind = BackgroundKind::transparent;  ///< by the settings
+    std::array<int, 4> codes{};                                    ///< red, green, blue, alpha, 0 to 255
+    Rgb3 linear{};                                                 ///< before the tone curve, not multiplied by alpha
+    double alpha = 0;                                              ///< in [0, 1]
+    double coverage = 0;                                           ///< share of the pixel's samples that opaque or masked surfaces cover
 
     /// @{
     /// The surface; unset unless `shows` is `surface`.
