@@ -109,14 +109,11 @@ public:
     SectionReport commit(Scene& scene, bool hatch) {
         Restore restore{scene, scene.meshes.size(), scene.materials.size(), scene.textures.size()};
         raster::CapMaterials materials(scene, hatch);
-        std::map<std::pair<int, int>, int> material_of;  // part and instance
         for (std::size_t c = 0; c < caps_.size(); ++c) {
             if (caps_[c].mesh.indices.empty()) continue;
             const SectionCut& cut = report_.cuts[c];
-            const auto [found, is_new] = material_of.try_emplace({cut.part, cut.instance}, -1);
-            if (is_new)
-                found->second = materials.add(scene.instances[static_cast<std::size_t>(cut.instance)], caps_[c].color, ordinals_[cut.part]);
-            caps_[c].mesh.material = found->second;
+            const Instance& source = scene.instances[static_cast<std::size_t>(cut.instance)];
+            caps_[c].mesh.material = materials.add(source, caps_[c].color, ordinals_[cut.part]);
         }
         scene.instances.reserve(scene.instances.size() + caps_.size());
         scene.meshes.reserve(scene.meshes.size() + caps_.size() + meshes_.size());

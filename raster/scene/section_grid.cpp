@@ -11,6 +11,7 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::int64_t kMostComparisons = std::int64_t{1} << 28;
+constexpr std::size_t kMostSplits = std::size_t{1} << 20;
 constexpr int kMostRounds = 40;
 constexpr std::uint32_t kLeafEdges = 8;
 
@@ -177,8 +178,10 @@ bool split_at_crossings(std::vector<GridEdge>& edges) {
         merge_equal(edges);
         Splits splits;
         const EdgeTree tree(edges);
-        const bool done = tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { add_splits(splits, edges, i, j); });
-        if (!done || splits.size() > static_cast<std::size_t>(kMostComparisons >> 4)) return false;
+        const bool done = tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+            if (splits.size() <= kMostSplits) add_splits(splits, edges, i, j);
+        });
+        if (!done || splits.size() > kMostSplits) return false;
         if (splits.empty()) return true;
         apply(edges, splits);
     }

@@ -1,6 +1,7 @@
 #include "raster/scene/section_hatch.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -66,7 +67,7 @@ int CapMaterials::add(const Instance& instance, Vec3f color, int part) {
     cap.metallic = 0.0f;
     cap.roughness = 0.9f;
     cap.double_sided = true;
-    const auto factor = [](float x) { return std::clamp(x, 0.0f, 1.0f); };
+    const auto factor = [](float x) { return shading::clamp_or_low(x, 0.0f, 1.0f); };
     Vec3f base{factor(instance.color.x * color.x), factor(instance.color.y * color.y), factor(instance.color.z * color.z)};
     if (const Material* const source = material_of(scene_, instance)) {
         const Vec3f mean = mean_color(scene_, source->textures[TextureSlot::base_color]);
@@ -78,11 +79,14 @@ int CapMaterials::add(const Instance& instance, Vec3f color, int part) {
     } else {
         cap.name = "section";
     }
-    const auto lifted = [](float x) { return kLeastColor + (1.0f - kLeastColor) * std::clamp(x, 0.0f, 1.0f); };
+    const auto lifted = [](float x) { return kLeastColor + (1.0f - kLeastColor) * shading::clamp_or_low(x, 0.0f, 1.0f); };
     cap.base_color = {lifted(base.x), lifted(base.y), lifted(base.z), 1.0f};
+    const auto [found, is_new] = made_.try_emplace(
+        {raster::material_index(scene_, instance), part % 2 != 0, cap.base_color.x, cap.base_color.y, cap.base_color.z}, -1);
+    if (!is_new) return found->second;
     if (hatch_) cap.textures[TextureSlot::base_color].texture = texture(part % 2 != 0);
     scene_.materials.push_back(std::move(cap));
-    return static_cast<int>(scene_.materials.size()) - 1;
+    return found->second = static_cast<int>(scene_.materials.size()) - 1;
 }
 
 }  // namespace halflit::raster

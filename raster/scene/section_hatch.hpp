@@ -4,6 +4,9 @@
 #include "halflit/scene.hpp"
 #include "halflit/section.hpp"
 
+#include <map>
+#include <tuple>
+
 namespace halflit::raster {
 
 /// Texture coordinates of a point of a cap are hatch_scale() times its coordinates in the plane.
@@ -13,7 +16,8 @@ namespace halflit::raster {
 class CapMaterials {
 public:
     CapMaterials(Scene& scene, bool hatch) : scene_(scene), hatch_(hatch) {}
-    /// Index of a new material: rough, not metallic, in the colour of the instance. color: factor for the mesh's colours.
+    /// Index of a material, a new one where none looks the same: rough, not metallic, in the colour of the instance. color: factor for the
+    /// mesh's colours.
     [[nodiscard]] int add(const Instance& instance, Vec3f color, int part);
 
 private:
@@ -22,6 +26,7 @@ private:
     Scene& scene_;
     bool hatch_;
     int textures_[2] = {-1, -1};
+    std::map<std::tuple<int, bool, float, float, float>, int> made_;  // by material of the instance, direction of lines, and colour
 };
 
 }  // namespace halflit::raster
