@@ -67,7 +67,7 @@ class Planes(unittest.TestCase):
         self.assertTrue(np.allclose(tiny.aovs["position"][inside] * 1e5, near.aovs["position"][inside], atol=1e-3))
 
     def test_planes_of_the_program(self):
-        # The numbers that `--aov id,coverage` writes.
+        # The numbers that `--aov` writes.
         try:
             from PIL import Image
         except ImportError:
@@ -78,10 +78,10 @@ class Planes(unittest.TestCase):
 
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "x.png")
-            flags = ["--size", "80x60", "-o", path, "--aov", "id,coverage,lights", "--quiet"]
+            flags = ["--size", "80x60", "-o", path, "--aov", "id,coverage,lights,mesh,material", "--quiet"]
             subprocess.run([support.PROGRAM, "render", "demo", *flags], check=True)
-            planes = halflit.render("demo", (80, 60), aovs=["id", "coverage", "lights"]).aovs
-            for name, scale in (("id", 1), ("lights", 1), ("coverage", 65535)):
+            planes = halflit.render("demo", (80, 60), aovs=["id", "coverage", "lights", "mesh", "material"]).aovs
+            for name, scale in (("id", 1), ("lights", 1), ("mesh", 1), ("material", 1), ("coverage", 65535)):
                 stored = np.asarray(Image.open(os.path.join(folder, f"x.{name}.png"))).astype(np.int64)
                 self.assertEqual(stored.tolist(), np.floor(planes[name] * float(scale) + 0.5).astype(np.int64).tolist(), name)
 
