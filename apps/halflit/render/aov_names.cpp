@@ -1,6 +1,6 @@
 #include "apps/halflit/render/aov_names.hpp"
 
-#include "apps/halflit/report/run_report.hpp"
+#include "apps/io/files/text.hpp"
 #include "halflit/fragment_planes.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,10 +10,15 @@
 namespace halflit::cli {
 namespace {
 
+using Text = nlohmann::ordered_json;
+
+/// Bytes of names that are not UTF-8 are replaced.
+std::string lines_of(const Text& text) { return io::display_safe_json(text.dump(2, ' ', false, Text::error_handler_t::replace)) + "\n"; }
+
 /// Names in the order of their numbers.
 template <class List>
-Json name_list(const List& list) {
-    Json names = Json::array();
+Text name_list(const List& list) {
+    Text names = Text::array();
     for (const auto& one : list) names.push_back(one.name);
     return names;
 }
@@ -31,23 +36,23 @@ std::string names_text(const SceneSource& source) {
     std::vector<std::uint32_t> materials = meshes;
     make_mesh_numbers(scene, meshes);
     make_material_numbers(scene, materials);
-    Json instances = Json::array();
+    Text instances = Text::array();
     for (std::size_t i = 0; i < meshes.size(); ++i)
         instances.push_back(
             {{"part", part_number(source, static_cast<std::uint32_t>(i) + 1)}, {"mesh", meshes[i]}, {"material", materials[i]}});
-    Json text = report_head("names");
+    Text text{{"schema", "halflit.names/1"}};
     text["instances"] = std::move(instances);
     text["parts"] = name_list(source.parts->list());
     text["meshes"] = name_list(scene.meshes);
     text["materials"] = name_list(scene.materials);
-    return to_text(text);
+    return lines_of(text);
 }
 
 std::string depth16_text(const DepthRange& range) {
-    Json text = report_head("depth16");
+    Text text{{"schema", "halflit.depth16/1"}};
     text["depth_of_1"] = range.least;
     text["depth_of_65535"] = range.most;
-    return to_text(text);
+    return lines_of(text);
 }
 
 }  // namespace halflit::cli
