@@ -12,6 +12,7 @@ namespace halflit::cli {
 [[nodiscard]] Command explain_command();
 [[nodiscard]] Command diff_command();
 [[nodiscard]] Command sheet_command();
+[[nodiscard]] Command look_command();
 [[nodiscard]] Command plan_command();
 [[nodiscard]] Command merge_command();
 [[nodiscard]] Command golden_command();

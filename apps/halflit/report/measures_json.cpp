@@ -32,15 +32,6 @@ Json point_json(Vec3d p, double size) {
     return {digits(p.x), digits(p.y), digits(p.z)};
 }
 
-/// Unit of length of a file's own coordinates, as Placement has them; null: the format has none.
-Json unit_of(const SceneSource& source) {
-    if (!source.file) return nullptr;
-    constexpr ModelFormat kInMetres[] = {ModelFormat::gltf, ModelFormat::glb, ModelFormat::three_mf};
-    for (const ModelFormat format : kInMetres)
-        if (source.file->format == model_format_name(format)) return "m";
-    return nullptr;
-}
-
 /// False for scenes of millions of instances, whose triangles take long to measure although they are few in memory.
 bool is_soon_measured(const Scene& scene) {
     std::uint64_t stored = 0, drawn = 0;
@@ -50,6 +41,13 @@ bool is_soon_measured(const Scene& scene) {
 }
 
 }  // namespace
+
+std::string unit_name(const SceneSource& source) {
+    constexpr ModelFormat kInMetres[] = {ModelFormat::gltf, ModelFormat::glb, ModelFormat::three_mf};
+    for (const ModelFormat format : kInMetres)
+        if (source.file && source.file->format == model_format_name(format)) return "m";
+    return "";
+}
 
 Result<Json> measures_json(const RenderJob& job) {
     if (!is_soon_measured(job.scene())) return Json(nullptr);
@@ -65,7 +63,8 @@ Result<Json> measures_json(const RenderJob& job) {
     const Vec3d max{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
     const Vec3d size = max - min;
     const double largest = std::max({size.x, size.y, size.z});
-    return Json{{"unit", unit_of(job.source)},
+    const std::string unit_text = unit_name(job.source);
+    return Json{{"unit", unit_text.empty() ? Json(nullptr) : Json(unit_text)},
                 {"min", point_json(min, largest)},
                 {"max", point_json(max, largest)},
                 {"size", point_json(size, largest)},

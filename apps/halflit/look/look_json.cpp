@@ -1,0 +1,110 @@
+#include "apps/halflit/look/look_json.hpp"
+
+#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/report/marks.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace halflit::cli {
+namespace {
+
+Json box_json(const PixelBox& box) { return box.empty() ? Json() : Json{box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0}; }
+
+/// Of the triangles, and the name.
+Json part_json(const RenderJob& job, std::size_t number, std::span<const ViewShot> shots, std::span<const ViewContent> contents) {
+    const Part& part = job.source.parts->list()[number];
+    std::size_t triangles = 0;
+    bool visible = false;
+    for (const int i : part.instances) {
+        const Instance& instance = job.scene().instances[static_cast<std::size_t>(i)];
+        triangles += triangles_of(job.scene().meshes[static_cast<std::size_t>(instance.mesh)]);
+        visible |= instance.visible;
+    }
+    Json seen_in = Json::array();
+    std::int64_t pixels = 0;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        const PartInView& seen = contents[i].parts[number];
+        if (seen.pixels > 0) seen_in.push_back(shots[i].name);
+        pixels += seen.pixels;
+    }
+    Json one{{"number", number + 1}, {"name", part.name}, {"instances", part.instances.size()}, {"triangles", triangles}};
+    one["shown"] = visible;
+    one["pixels"] = pixels;
+    one["seen_in"] = std::move(seen_in);
+    return one;
+}
+
+Json seen_json(const PartInView& seen) {
+    Json one{{"part", seen.part + 1}, {"pixels", seen.pixels}, {"box", box_json(seen.box)}};
+    one["pixels_alone"] = seen.alone ? Json(*seen.alone) : Json();
+    one["hidden_by"] = seen.hidden_by < 0 ? Json() : Json{{"part", seen.hidden_by + 1}, {"pixels", seen.hidden_pixels}};
+    return one;
+}
+
+}  // namespace
+
+Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewShot> shots, std::span<const ViewContent> contents) {
+    Json report = report_head("look");
+    report["scene"] = job.source.name;
+    report["size"] = {job.width, job.height};
+    report["measures"] = measures;
+    Json views = Json::array(), parts = Json::array(), never_seen = Json::array();
+    bool good = true;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        const ViewShot& shot = shots[i];
+        const ViewContent& content = contents[i];
+        Json view{{"name", shot.name}};
+        view["pixel_size"] = shot.camera.orthographic
+                                 ? Json(pixel_size(shot.camera, shot.width(), shot.height(), 1.0) / job.source.placement.scale)
+                                 : Json();
+        view["share_of_picture"] = static_cast<double>(content.pixels) / (static_cast<double>(job.width) * job.height);
+        view["box"] = box_json(content.box);
+        view["faults"] = content.faults.names();
+        good &= !content.faults.any();
+        Json seen = Json::array();
+        for (const PartInView& part : content.parts)
+            if (part.pixels > 0 || part.alone.value_or(0) > 0) seen.push_back(seen_json(part));
+        view["parts"] = std::move(seen);
+        views.push_back(std::move(view));
+    }
+    for (std::size_t number = 0; number < job.source.parts->list().size(); ++number) {
+        Json part = part_json(job, number, shots, contents);
+        if (part["shown"] == true && part["pixels"] == 0) never_seen.push_back(number + 1);
+        parts.push_back(std::move(part));
+    }
+    report["good"] = good;
+    report["views"] = std::move(views);
+    report["parts"] = std::move(parts);
+    report["never_seen"] = std::move(never_seen);
+    report["warnings"] = job.warnings;
+    return report;
+}
+
+std::string look_footer(const RenderJob& job, const Json& measures) {
+    std::string text = job.source.name.substr(job.source.name.rfind('/') + 1);
+    if (!measures.is_object()) return text;
+    const auto& size = measures["size"];
+    const double largest = std::max({size[0].get<double>(), size[1].get<double>(), size[2].get<double>()});
+    const double drawn = largest * job.source.placement.scale;
+    const ShownUnit unit = shown_unit(job.source, drawn);
+    const double factor = unit.per_drawn_unit * job.source.placement.scale;
+    text += fmt::format(": {} x {} x {}{}{}, {} triangles", number_text(size[0].get<double>() * factor),
+                        number_text(size[1].get<double>() * factor), number_text(size[2].get<double>() * factor),
+                        unit.name.empty() ? "" : " ", unit.name, measures["triangles"].get<std::uint64_t>());
+    const auto count = [&](const char* key, const char* one, const char* many) {
+        const auto n = measures[key].get<std::uint64_t>();
+        if (n > 0) text += fmt::format(", {} {}", n, n == 1 ? one : many);
+    };
+    count("bodies", "body", "bodies");
+    if (measures["watertight"] == true) return text + ", watertight";
+    count("open_edges", "open edge", "open edges");
+    count("flipped_edges", "flipped edge", "flipped edges");
+    count("crowded_edges", "crowded edge", "crowded edges");
+    return text;
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,18 @@
+// The report of `halflit look`: cameras, and what each view shows of each part.
+#pragma once
+
+#include "apps/halflit/look/look_sheet.hpp"
+#include "apps/halflit/report/run_report.hpp"
+
+#include <span>
+
+namespace halflit::cli {
+
+/// The keys of docs/schema/look-1.schema.json. measures: of measures_json().
+[[nodiscard]] Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewShot> shots,
+                             std::span<const ViewContent> contents);
+
+/// "Duck.glb: 166 x 154 x 115 mm, 4212 triangles, 1 body, watertight".
+[[nodiscard]] std::string look_footer(const RenderJob& job, const Json& measures);
+
+}  // namespace halflit::cli

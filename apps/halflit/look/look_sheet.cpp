@@ -1,0 +1,98 @@
+#include "apps/halflit/look/look_sheet.hpp"
+
+#include "apps/halflit/report/marks.hpp"
+#include "apps/halflit/report/measures_json.hpp"
+#include "apps/halflit/report/sheet_page.hpp"
+#include "sh/vec3d.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+namespace halflit::cli {
+namespace {
+
+constexpr MarkStyle kMarks{.color = {0x2b, 0x33, 0x3d}, .background = {0xec, 0xee, 0xf1}};
+
+/// The axes of the file as the camera sees them.
+std::array<Vec3d, 3> seen_axes(const RenderJob& job, const Camera& camera) {
+    const Mat4& m = camera.world_from_camera;
+    const auto column = [&](std::size_t i) { return Vec3d{m.c[i].x, m.c[i].y, m.c[i].z}; };
+    std::array<Vec3d, 3> seen;
+    const Vec3d of_file[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d axis = turned_upright(of_file[i], job.source.placement.up);
+        seen[i] = {dot(axis, column(0)), dot(axis, column(1)), dot(axis, column(2))};
+    }
+    return seen;
+}
+
+/// Dimension lines of the model's box, below it and on its right, where the view looks along an axis: others would be foreshortened.
+void draw_dimensions(const RenderJob& job, const ViewShot& shot, const ShownUnit& unit, Canvas& canvas) {
+    const Mat4& m = shot.camera.world_from_camera;
+    const Bounds& bounds = job.film.bounds;
+    const auto is_axis = [](const Vec4f& v) {
+        constexpr float kAlmostOne = 1.0f - 1e-6f;
+        return std::max({v.x * v.x, v.y * v.y, v.z * v.z}) > kAlmostOne;
+    };
+    if (!shot.camera.orthographic || bounds.empty || !is_axis(m.c[0]) || !is_axis(m.c[1])) return;
+    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+    for (int k = 0; k < 8; ++k) {
+        const Vec3d p =
+            window_point(shot.camera, shot.width(), shot.height(),
+                         {k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z});
+        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
+    }
+    const Vec3d size = to_double(bounds.max) - to_double(bounds.min);
+    const auto along = [&](const Vec4f& v) { return absolute(v.x) * size.x + absolute(v.y) * size.y + absolute(v.z) * size.z; };
+    const auto text = [&](double length) { return number_text(length * unit.per_drawn_unit) + (unit.name.empty() ? "" : " ") + unit.name; };
+    constexpr double kBeside = 15;  // pixels from the model
+    if (x1 - x0 > 1) draw_dimension(canvas, {x0, y1 + kBeside}, {x1, y1 + kBeside}, text(along(m.c[0])), kMarks);
+    if (y1 - y0 > 1) draw_dimension(canvas, {x1 + kBeside, y0}, {x1 + kBeside, y1}, text(along(m.c[1])), kMarks);
+}
+
+SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
+    Canvas canvas(shot.picture);
+    constexpr double kAxes = 26, kInset = 16;
+    const double width = shot.width(), height = shot.height();
+    draw_dimensions(job, shot, unit, canvas);
+    draw_axes(canvas, {kInset + kAxes, height - kInset - kAxes}, kAxes, seen_axes(job, shot.camera));
+    if (shot.camera.orthographic) {
+        constexpr double kLongest = 0.2;  // of the picture's width
+        const double units = pixel_size(shot.camera, shot.width(), shot.height(), 1.0) * unit.per_drawn_unit;
+        const double bar = round_length(kLongest * width * units) / units;
+        draw_scale_bar(canvas, {width - kInset - bar, height - kInset}, kLongest * width, units, unit.name, kMarks);
+    }
+    std::string note;
+    for (const std::string& fault : content.faults.names()) note += (note.empty() ? "" : ", ") + fault;
+    return {shot.name, note, canvas.take(), {}};
+}
+
+}  // namespace
+
+ShownUnit shown_unit(const SceneSource& source, double largest) {
+    const double scale = 1.0 / source.placement.scale;
+    const std::string name = unit_name(source);
+    constexpr double kSmall = 1.0;  // metres
+    return name == "m" && largest * scale < kSmall ? ShownUnit{"mm", 1000.0 * scale} : ShownUnit{name, scale};
+}
+
+Result<Image> look_sheet(const RenderJob& job, std::span<const ViewShot> shots, std::span<const ViewContent> contents,
+                         Projection projection, const std::string& footer) {
+    const Bounds& bounds = job.film.bounds;
+    const Vec3d size = bounds.empty ? Vec3d{} : to_double(bounds.max) - to_double(bounds.min);
+    const ShownUnit unit = shown_unit(job.source, std::max({size.x, size.y, size.z}));
+    std::vector<SheetCell> cells;
+    for (std::size_t i = 0; i < shots.size(); ++i) cells.push_back(cell_of(job, shots[i], contents[i], unit));
+    const std::array<const char*, 4> drawing =
+        projection == Projection::third_angle ? std::array{"top", "iso", "front", "right"} : std::array{"right", "front", "iso", "top"};
+    std::vector<SheetCell> arranged;
+    for (const char* const name : drawing)
+        for (SheetCell& cell : cells)
+            if (cell.title == name && arranged.size() < drawing.size() && cells.size() == drawing.size()) arranged.push_back(cell);
+    const bool is_drawing = arranged.size() == drawing.size();
+    return lay_out(is_drawing ? arranged : cells, is_drawing ? 2 : 0, footer);
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,27 @@
+// The sheet of `halflit look`: labelled views with scale bar, axes and dimensions.
+#pragma once
+
+#include "apps/halflit/look/part_views.hpp"
+
+#include <span>
+#include <string>
+
+namespace halflit::cli {
+
+/// Unit of length that people read, and how many of it a unit of the drawn world is.
+struct ShownUnit {
+    std::string name;  ///< "mm", "m", or empty: the format has none
+    double per_drawn_unit = 1.0;
+};
+/// Of a model whose largest side has this length in the drawn world.
+[[nodiscard]] ShownUnit shown_unit(const SceneSource& source, double largest);
+
+/// How views lie beside each other: third angle has the view from above above the front, first angle below it.
+enum class Projection : std::uint8_t { third_angle, first_angle };
+
+/// Draws dimensions, axes and scale into the shots' pictures, and lays them out. Front, right, top and iso are arranged as a drawing; other
+/// views come row by row.
+[[nodiscard]] Result<Image> look_sheet(const RenderJob& job, std::span<const ViewShot> shots, std::span<const ViewContent> contents,
+                                       Projection projection, const std::string& footer);
+
+}  // namespace halflit::cli

@@ -1,0 +1,164 @@
+#include "apps/halflit/look/part_views.hpp"
+
+#include "raster/scene/instance_material.hpp"
+#include "raster/view/projection.hpp"
+#include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
+#include "sh/vec3d.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace halflit::cli {
+namespace {
+
+/// Makes instances invisible while parts are drawn alone; what they were comes back at the end.
+class AloneScene {
+public:
+    explicit AloneScene(RenderJob& job) : job_(job) {
+        for (const Instance& instance : job.scene().instances) visible_.push_back(instance.visible);
+    }
+    ~AloneScene() {
+        (void)show([](std::size_t) { return true; });
+    }
+    AloneScene(const AloneScene&) = delete;
+    AloneScene& operator=(const AloneScene&) = delete;
+
+    /// Shows instances that were visible and that `wanted` says true of.
+    template <class Wanted>
+    Result<void> show(const Wanted& wanted) {
+        SceneChanges changes;
+        for (std::size_t i = 0; i < visible_.size(); ++i) {
+            Instance& instance = job_.scene().instances[i];
+            const bool visible = visible_[i] && wanted(i);
+            if (visible != instance.visible) instance.visible = visible, changes.changed_instances.push_back(i);
+        }
+        if (changes.changed_instances.empty()) return {};
+        return job_.prepared->update(changes, job_.timed_execution());
+    }
+    Result<void> show_part(int part) {
+        return show([&](std::size_t i) { return job_.source.parts->of_instance(i) == part; });
+    }
+
+private:
+    RenderJob& job_;
+    std::vector<bool> visible_;
+};
+
+ViewContent content_of(const RenderJob& job, const ViewShot& shot) {
+    ViewContent content;
+    const Parts& parts = *job.source.parts;
+    content.parts.resize(parts.list().size());
+    for (std::size_t i = 0; i < content.parts.size(); ++i) content.parts[i].part = static_cast<int>(i);
+    const Scene& scene = job.scene();
+    std::size_t at = 0;
+    for (int y = 0; y < shot.height(); ++y)
+        for (int x = 0; x < shot.width(); ++x, ++at) {
+            const std::uint32_t instance = shot.instance[at];
+            if (instance == 0 || raster::catches_shadows(scene, scene.instances[instance - 1])) continue;
+            ++content.pixels;
+            content.box.add(x, y);
+            const int part = parts.of_instance(instance - 1);
+            if (part < 0) continue;
+            PartInView& seen = content.parts[static_cast<std::size_t>(part)];
+            ++seen.pixels;
+            seen.box.add(x, y);
+        }
+    return content;
+}
+
+/// Looks at the model's vertices: beside the picture, or outside of the camera's depths.
+void judge_vertices(const RenderJob& job, const ViewShot& shot, ViewFaults& faults) {
+    const Mat4 clip_from_world = raster::clip_from_world(shot.camera, static_cast<float>(shot.width()) / static_cast<float>(shot.height()));
+    const Scene& scene = job.scene();
+    TimeCheck check;
+    for (const Instance& instance : scene.instances) {
+        if (!raster::counts_for_views(scene, instance)) continue;
+        const Mat4 m = clip_from_world * instance.world_from_object;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        for (const std::uint32_t index : mesh.indices) {
+            check();
+            const Vec3f& p = mesh.positions[index];
+            const Vec4f c = m * Vec4f{p.x, p.y, p.z, 1.0f};
+            constexpr float kRounding = 1e-5f;
+            const float side = c.w * (1.0f + kRounding);
+            if (c.w <= 0.0f || c.z > side || c.z < -kRounding * c.w)
+                faults.cut = true;
+            else
+                faults.cropped |= c.x > side || c.x < -side || c.y > side || c.y < -side;
+        }
+    }
+}
+
+void judge(const RenderJob& job, const ViewShot& shot, ViewContent& content) {
+    ViewFaults& faults = content.faults;
+    faults.blank = content.pixels == 0;
+    constexpr int kLeastSpan = 6;
+    const PixelBox& box = content.box;
+    faults.tiny = !faults.blank && kLeastSpan * (box.x1 - box.x0) < shot.width() && kLeastSpan * (box.y1 - box.y0) < shot.height();
+    const Bounds& bounds = job.film.bounds;
+    const Vec4f& eye = shot.camera.world_from_camera.c[3];
+    faults.inside = !bounds.empty && !shot.camera.orthographic && eye.x > bounds.min.x && eye.x < bounds.max.x && eye.y > bounds.min.y &&
+                    eye.y < bounds.max.y && eye.z > bounds.min.z && eye.z < bounds.max.z;
+    judge_vertices(job, shot, faults);
+}
+
+/// Counts what a part shows alone, and what hides it in the shot.
+void count_alone(const RenderJob& job, const ViewShot& all, const ViewShot& alone, PartInView& part) {
+    std::map<int, std::int64_t> hiding;
+    std::int64_t pixels = 0;
+    int last = -2;
+    std::int64_t* count = nullptr;
+    for (std::size_t i = 0; i < alone.instance.size(); ++i) {
+        if (alone.instance[i] == 0) continue;
+        ++pixels;
+        const int shown = all.instance[i] == 0 ? -1 : job.source.parts->of_instance(all.instance[i] - 1);
+        if (shown == part.part) continue;
+        if (shown != last) count = &hiding[shown], last = shown;
+        ++*count;
+    }
+    part.alone = pixels;
+    for (const auto& [by, hidden] : hiding)
+        if (by >= 0 && hidden > part.hidden_pixels) part.hidden_by = by, part.hidden_pixels = hidden;
+}
+
+}  // namespace
+
+void PixelBox::add(int x, int y) {
+    if (empty()) *this = {x, y, x + 1, y + 1};
+    x0 = std::min(x0, x), x1 = std::max(x1, x + 1), y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
+}
+
+std::vector<std::string> ViewFaults::names() const {
+    std::vector<std::string> names;
+    const std::pair<bool, const char*> all[] = {{blank, "blank"}, {cropped, "cropped"}, {cut, "cut"}, {inside, "inside"}, {tiny, "tiny"}};
+    for (const auto& one : all)
+        if (one.first) names.emplace_back(one.second);
+    return names;
+}
+
+Result<std::vector<ViewContent>> count_parts(RenderJob& job, Renderer& renderer, std::span<const ViewShot> shots, std::size_t most_alone) {
+    std::vector<ViewContent> contents;
+    for (const ViewShot& shot : shots) {
+        contents.push_back(content_of(job, shot));
+        judge(job, shot, contents.back());
+    }
+    const std::size_t parts = job.source.parts->list().size();
+    if (parts < 2 || parts > most_alone) {
+        if (parts == 1)
+            for (ViewContent& content : contents) content.parts[0].alone = content.parts[0].pixels;
+        return contents;
+    }
+    AloneScene scene(job);
+    for (std::size_t part = 0; part < parts; ++part) {
+        if (const auto shown = scene.show_part(static_cast<int>(part)); !shown) return tl::unexpected(shown.error());
+        for (std::size_t i = 0; i < shots.size(); ++i) {
+            const auto alone = draw_shot(job, renderer, shots[i].name, shots[i].camera, {.picture = false});
+            if (!alone) return tl::unexpected(alone.error());
+            count_alone(job, shots[i], *alone, contents[i].parts[part]);
+        }
+    }
+    return contents;
+}
+
+}  // namespace halflit::cli
