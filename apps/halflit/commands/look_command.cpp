@@ -1,5 +1,6 @@
 // halflit look: labelled views of a model on one sheet, and a report of what they show.
 #include "apps/halflit/commands/commands.hpp"
+#include "apps/halflit/look/certificate.hpp"
 #include "apps/halflit/look/look_json.hpp"
 #include "apps/halflit/look/look_sheet.hpp"
 #include "apps/halflit/look/part_views.hpp"
@@ -17,12 +18,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace halflit::cli {
 namespace {
 
-constexpr PictureSize kViewSize{480, 400};
-constexpr int kMargin = 44;             // pixels: room for dimension lines
+constexpr PictureSize kViewSize{480, 400}, kCertifiedSize{800, 640};
+constexpr PictureSize kMargin{76, 44};  // pixels: room for dimension lines
 constexpr std::size_t kMostAlone = 24;  // parts that are drawn alone
 constexpr const char* kPaper = "#eceef1";
 
@@ -30,7 +32,12 @@ struct LookOptions : RenderOptions {
     std::string output, json;
     Projection projection = Projection::third_angle;
     bool perspective = false;
+    int certify = 0;  ///< pixels that count as seen; 0: no certificate
+    int most_views = 24;
 };
+
+/// Pictures are larger where each triangle has to be seen.
+PictureSize usual_size(const LookOptions& options) { return options.certify > 0 ? kCertifiedSize : kViewSize; }
 
 /// What a sheet of views has unless the flags say otherwise.
 void set_defaults(LookOptions& options) {
@@ -45,13 +52,27 @@ void set_defaults(LookOptions& options) {
     if (options.film.views.empty()) options.film.views = *parse_views("front,right,top,iso");
     options.whole_scene = true;
     if (!options.fit_px) {
-        const PictureSize size = options.size.value_or(kViewSize);
-        options.fit_px = std::min(kMargin, std::min(size.width, size.height) / 5);
+        const PictureSize size = options.size.value_or(usual_size(options));
+        options.fit_px = PictureSize{std::min(kMargin.width, size.width / 5), std::min(kMargin.height, size.height / 5)};
     }
 }
 
+/// Adds pictures to the shots until each triangle is seen.
+Result<Certificate> add_views(RenderJob& job, Renderer& renderer, Renderer& alone, const LookOptions& options,
+                              std::vector<ViewShot>& shots) {
+    auto certificate = certify(job, alone, shots, {options.certify, static_cast<std::size_t>(options.most_views)});
+    if (!certificate) return certificate;
+    for (std::size_t i = shots.size(); i < certificate->shots.size(); ++i) {
+        auto shot = draw_shot(job, renderer, certificate->shots[i].name, certificate->shots[i].camera, {});
+        if (!shot) return tl::unexpected(shot.error());
+        shot->detail = certificate->shots[i].detail;
+        shots.push_back(std::move(*shot));
+    }
+    return certificate;
+}
+
 Result<int> look(const LookOptions& options) {
-    auto made = make_render_job(options, kViewSize);
+    auto made = make_render_job(options, usual_size(options));
     if (!made) return tl::unexpected(made.error());
     RenderJob& job = *made;
     for (const std::string& warning : job.warnings) print_warning(warning);
@@ -65,11 +86,18 @@ Result<int> look(const LookOptions& options) {
         shots.push_back(std::move(*shot));
     }
     Renderer alone;  // keeps what the pictures' renderer has
+    std::optional<Certificate> certificate;
+    if (options.certify > 0) {
+        auto certified = add_views(job, renderer, alone, options, shots);
+        if (!certified) return tl::unexpected(certified.error());
+        certificate = std::move(*certified);
+    }
     const auto contents = count_parts(job, alone, shots, kMostAlone);
     if (!contents) return tl::unexpected(contents.error());
     const auto measures = measures_json(job);
     if (!measures) return tl::unexpected(measures.error());
-    const Json report = look_json(job, *measures, shots, *contents);
+    Json report = look_json(job, *measures, shots, *contents);
+    if (certificate) report["certificate"] = certificate_json(job, *certificate);
     if (!options.output.empty()) {
         const auto format = output_format_of(options.output);
         if (!format) return tl::unexpected(format.error());
@@ -88,7 +116,14 @@ Result<int> look(const LookOptions& options) {
         const Part& part = job.source.parts->list()[number.get<std::size_t>() - 1];
         print_warning(fmt::format("part {}{}{} is in no view", number.get<std::size_t>(), part.name.empty() ? "" : ", ", part.name));
     }
-    return report["good"] == true ? 0 : 1;
+    if (certificate) {
+        const auto of = [&](TriangleStatus status) { return certificate->count(status); };
+        print_note(
+            fmt::format("certificate: {} triangles seen with {} pixels or more in {} views, {} hidden, {} seen with less, {} unknown",
+                        of(TriangleStatus::seen), options.certify, shots.size(), of(TriangleStatus::hidden), of(TriangleStatus::less),
+                        of(TriangleStatus::unknown)));
+    }
+    return report["good"] == true && (!certificate || certificate->complete()) ? 0 : 1;
 }
 
 Result<int> run_look(LookOptions options) {
@@ -128,6 +163,10 @@ Command look_command() {
                o.projection = text == "first" ? Projection::first_angle : Projection::third_angle;
                return {};
            }},
+          {"--certify", "PIXELS",
+           "Add views until each triangle is seen with so many pixels, or is hidden from all around; the report lists those that are not",
+           read_int(o.certify, 1, 10000)},
+          {"--certify-views", "N", fmt::format("Most views of a certificate (default {})", o.most_views), read_int(o.most_views, 1, 1000)},
           {"--perspective", "", "Draw views in perspective; without it, by parallel rays", set_to(o.perspective)}}});
     return {"look",
             "Draw labelled views of a model on one sheet, and report what they show",

@@ -3,11 +3,13 @@
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/report/marks.hpp"
+#include "raster/scene/instance_material.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace halflit::cli {
 namespace {
@@ -18,11 +20,13 @@ Json box_json(const PixelBox& box) { return box.empty() ? Json() : Json{box.x0, 
 Json part_json(const RenderJob& job, std::size_t number, std::span<const ViewShot> shots, std::span<const ViewContent> contents) {
     const Part& part = job.source.parts->list()[number];
     std::size_t triangles = 0;
-    bool visible = false;
+    bool visible = false, transparent = true;
     for (const int i : part.instances) {
         const Instance& instance = job.scene().instances[static_cast<std::size_t>(i)];
         triangles += triangles_of(job.scene().meshes[static_cast<std::size_t>(instance.mesh)]);
         visible |= instance.visible;
+        const Material* const material = raster::material_of(job.scene(), instance);
+        transparent &= material != nullptr && (material->alpha_mode == AlphaMode::blend || material->transmission > 0.0f);
     }
     Json seen_in = Json::array();
     std::int64_t pixels = 0;
@@ -33,6 +37,7 @@ Json part_json(const RenderJob& job, std::size_t number, std::span<const ViewSho
     }
     Json one{{"number", number + 1}, {"name", part.name}, {"instances", part.instances.size()}, {"triangles", triangles}};
     one["shown"] = visible;
+    one["transparent"] = transparent;
     one["pixels"] = pixels;
     one["seen_in"] = std::move(seen_in);
     return one;
@@ -45,7 +50,56 @@ Json seen_json(const PartInView& seen) {
     return one;
 }
 
+/// Of the statuses, in their order.
+constexpr const char* kStatusNames[] = {"seen", "seen_less", "hidden", "unknown", "no_area", "not_drawn"};
+
+/// Numbers of triangles of a status, by part, instance and ranges [first, last] from 1 on; at most so many ranges.
+Json triangles_json(const RenderJob& job, const Certificate& certificate, TriangleStatus status) {
+    constexpr std::size_t kMostRanges = 10000;
+    Json list = Json::array();
+    std::size_t ranges = 0;
+    for (std::size_t instance = 0; instance < certificate.first.size(); ++instance) {
+        const std::size_t begin = certificate.first[instance];
+        const std::size_t end = instance + 1 < certificate.first.size() ? certificate.first[instance + 1] : certificate.triangles.size();
+        Json found = Json::array();
+        for (std::size_t i = begin; i < end && ranges < kMostRanges; ++i) {
+            if (certificate.triangles[i].status != status) continue;
+            const std::size_t first = i;
+            while (i + 1 < end && certificate.triangles[i + 1].status == status) ++i;
+            found.push_back({first - begin + 1, i - begin + 1});
+            ++ranges;
+        }
+        if (found.empty()) continue;
+        list.push_back(
+            {{"part", job.source.parts->of_instance(instance) + 1}, {"instance", instance + 1}, {"triangles", std::move(found)}});
+    }
+    return list;
+}
+
+Json statuses_json(const Certificate& certificate, std::span<const int> instances) {
+    Json counts;
+    for (std::size_t status = 0; status < std::size(kStatusNames); ++status)
+        counts[kStatusNames[status]] = certificate.count(static_cast<TriangleStatus>(status), instances);
+    return counts;
+}
+
 }  // namespace
+
+Json certificate_json(const RenderJob& job, const Certificate& certificate) {
+    Json json{{"pixels", certificate.least}, {"directions", certificate.directions}, {"views_added", certificate.added}};
+    json["complete"] = certificate.complete();
+    json["triangles"] = statuses_json(certificate, {});
+    Json parts = Json::array();
+    for (std::size_t i = 0; i < job.source.parts->list().size(); ++i) {
+        Json part{{"part", i + 1}};
+        part.update(statuses_json(certificate, job.source.parts->list()[i].instances));
+        parts.push_back(std::move(part));
+    }
+    json["parts"] = std::move(parts);
+    for (const TriangleStatus status : {TriangleStatus::less, TriangleStatus::hidden, TriangleStatus::unknown})
+        json[std::string(kStatusNames[static_cast<std::size_t>(status)]) + "_triangles"] = triangles_json(job, certificate, status);
+    return json;
+}
 
 Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewShot> shots, std::span<const ViewContent> contents) {
     Json report = report_head("look");
@@ -73,7 +127,7 @@ Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewS
     }
     for (std::size_t number = 0; number < job.source.parts->list().size(); ++number) {
         Json part = part_json(job, number, shots, contents);
-        if (part["shown"] == true && part["pixels"] == 0) never_seen.push_back(number + 1);
+        if (part["shown"] == true && part["transparent"] == false && part["pixels"] == 0) never_seen.push_back(number + 1);
         parts.push_back(std::move(part));
     }
     report["good"] = good;

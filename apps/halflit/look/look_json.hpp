@@ -1,6 +1,7 @@
 // The report of `halflit look`: cameras, and what each view shows of each part.
 #pragma once
 
+#include "apps/halflit/look/certificate.hpp"
 #include "apps/halflit/look/look_sheet.hpp"
 #include "apps/halflit/report/run_report.hpp"
 
@@ -11,6 +12,9 @@ namespace halflit::cli {
 /// The keys of docs/schema/look-1.schema.json. measures: of measures_json().
 [[nodiscard]] Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewShot> shots,
                              std::span<const ViewContent> contents);
+
+/// {"pixels", "directions", "complete", counts of triangles by status, parts, lists of triangles that are not seen}: of the schema too.
+[[nodiscard]] Json certificate_json(const RenderJob& job, const Certificate& certificate);
 
 /// "Duck.glb: 166 x 154 x 115 mm, 4212 triangles, 1 body, watertight".
 [[nodiscard]] std::string look_footer(const RenderJob& job, const Json& measures);

@@ -47,9 +47,13 @@ void draw_dimensions(const RenderJob& job, const ViewShot& shot, const ShownUnit
     const Vec3d size = to_double(bounds.max) - to_double(bounds.min);
     const auto along = [&](const Vec4f& v) { return absolute(v.x) * size.x + absolute(v.y) * size.y + absolute(v.z) * size.z; };
     const auto text = [&](double length) { return number_text(length * unit.per_drawn_unit) + (unit.name.empty() ? "" : " ") + unit.name; };
-    constexpr double kBeside = 15;  // pixels from the model
+    constexpr double kBeside = 15, kClear = 6;  // pixels from the model to a line, and to a text
     if (x1 - x0 > 1) draw_dimension(canvas, {x0, y1 + kBeside}, {x1, y1 + kBeside}, text(along(m.c[0])), kMarks);
-    if (y1 - y0 > 1) draw_dimension(canvas, {x1 + kBeside, y0}, {x1 + kBeside, y1}, text(along(m.c[1])), kMarks);
+    if (y1 - y0 > 1) {
+        const std::string height = text(along(m.c[1]));
+        const double x = x1 + kClear + 0.5 * width_of_text(height, kMarks.text_size);
+        draw_dimension(canvas, {x, y0}, {x, y1}, height, kMarks);
+    }
 }
 
 SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {

@@ -93,6 +93,7 @@ void judge_vertices(const RenderJob& job, const ViewShot& shot, ViewFaults& faul
 void judge(const RenderJob& job, const ViewShot& shot, ViewContent& content) {
     ViewFaults& faults = content.faults;
     faults.blank = content.pixels == 0;
+    if (shot.detail) return;
     constexpr int kLeastSpan = 6;
     const PixelBox& box = content.box;
     faults.tiny = !faults.blank && kLeastSpan * (box.x1 - box.x0) < shot.width() && kLeastSpan * (box.y1 - box.y0) < shot.height();

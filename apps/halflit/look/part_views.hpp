@@ -17,7 +17,7 @@ struct PixelBox {
     [[nodiscard]] bool empty() const { return x0 == x1; }
 };
 
-/// A part in a view. A pixel shows what its first sample shows; glass does not count.
+/// A part in a view. A pixel shows what its first sample shows; what is transparent does not count, and hides nothing.
 struct PartInView {
     int part = 0;             ///< index into Parts::list()
     std::int64_t pixels = 0;  ///< that show it

@@ -207,8 +207,8 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, P
     if (options.camera_target) options.camera_target = placed(*options.camera_target);
     if (options.fit_px) {
         const PictureSize size = options.size.value_or(usual);
-        options.view.margin_x = 2.0 * *options.fit_px / size.width;
-        options.view.margin_y = 2.0 * *options.fit_px / size.height;
+        options.view.margin_x = 2.0 * options.fit_px->width / size.width;
+        options.view.margin_y = 2.0 * options.fit_px->height / size.height;
     }
     options.settings.shadow_fade = times(options.settings.shadow_fade, place.scale);
     options.lamp_size = times(options.lamp_size, place.scale);

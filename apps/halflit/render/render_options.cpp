@@ -124,7 +124,9 @@ FlagGroup camera_flags(RenderOptions& o) {
          {"--fit", "PIXELS", "Fit the view, or the largest of several, into the picture, with this margin",
           [&o](const std::string& text) {
               o.whole_scene = true;
-              return assign(o.fit_px, parse_int(text, 0, 1 << 20).map([](std::int64_t n) { return std::optional(static_cast<int>(n)); }));
+              return assign(o.fit_px, parse_int(text, 0, 1 << 20).map([](std::int64_t n) {
+                  return std::optional(PictureSize{static_cast<int>(n), static_cast<int>(n)});
+              }));
           }},
          {"--ortho,--orthographic", "", "View the whole scene by parallel rays, without perspective",
           [&o](const std::string&) -> Result<void> {

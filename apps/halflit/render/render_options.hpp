@@ -32,7 +32,7 @@ struct RenderOptions {
 
     std::optional<std::string> camera;  ///< a camera of the file: its index or name
     ViewSettings view;
-    std::optional<int> fit_px;                            ///< --fit: margin of a view that is as near as its side allows
+    std::optional<PictureSize> fit_px;                    ///< --fit: margins of a view that is as near as its side allows
     bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation, --zoom, --fit or --view was given
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world

@@ -1,0 +1,329 @@
+#include "apps/halflit/look/certificate.hpp"
+
+#include "raster/scene/instance_material.hpp"
+#include "raster/scene/welded_surface.hpp"
+#include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
+#include "sh/trig.hpp"
+#include "sh/vec3d.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+constexpr int kSpread = 100;  ///< directions besides those towards a cube's faces, edges and corners
+
+/// Towards a cube's faces, corners and edges, then spread over the sphere by the golden angle.
+std::vector<GivenView> directions_around() {
+    std::vector<GivenView> views;
+    const auto add = [&](double azimuth, double elevation) {
+        views.push_back({fmt::format("{:.1f},{:.1f}", azimuth, elevation), static_cast<float>(azimuth), static_cast<float>(elevation)});
+    };
+    for (const NamedView& view : kNamedViews)
+        if (view.name != "iso") views.push_back({std::string(view.name), view.azimuth_deg, view.elevation_deg, true});
+    constexpr double kCorner = 35.26438968;
+    for (const double elevation : {kCorner, -kCorner})
+        for (const double azimuth : {45.0, 135.0, -135.0, -45.0}) add(azimuth, elevation);
+    for (const double elevation : {45.0, -45.0})
+        for (const double azimuth : {0.0, 90.0, 180.0, -90.0}) add(azimuth, elevation);
+    for (const double azimuth : {45.0, 135.0, -135.0, -45.0}) add(azimuth, 0.0);
+    constexpr double kGolden = 137.50776405;
+    for (int i = 0; i < kSpread; ++i) {
+        const double sine = 1.0 - (2.0 * i + 1.0) / kSpread;  // of the elevation: equal areas
+        double low = -90.0, high = 90.0;
+        for (int halving = 0; halving < 24; ++halving) {
+            const double middle = 0.5 * (low + high);
+            (sin_cos(middle * (kPi / 180.0)).sin < sine ? low : high) = middle;
+        }
+        const double turns = i * kGolden / 360.0;
+        add((turns - std::floor(turns)) * 360.0 - 180.0, 0.5 * (low + high));
+    }
+    return views;
+}
+
+/// A triangle in the world.
+struct PlacedTriangle {
+    Vec3d middle;
+    Vec3d area_normal;   ///< its length is the area
+    double reach = 0.0;  ///< from the middle to the farthest corner
+    bool two_sided = false;
+};
+
+class Certifier {
+public:
+    Certifier(RenderJob& job, Renderer& renderer, std::vector<ViewShot> given, const CertificateLimits& limits)
+        : job_(job), renderer_(renderer), limits_(limits), given_(given.size()) {
+        found_.least = limits.least_pixels;
+        place_triangles();
+        for (ViewShot& shot : given) {
+            const Tally tally = count(shot);
+            keep(std::move(shot), tally);
+        }
+    }
+
+    Result<Certificate> run() {
+        if (const auto looked = look_around(); !looked) return tl::unexpected(looked.error());
+        if (const auto choosen = choose_views(); !choosen) return tl::unexpected(choosen.error());
+        if (const auto looked = look_closely(); !looked) return tl::unexpected(looked.error());
+        for (std::size_t i = 0; i < found_.triangles.size(); ++i) settle(i);
+        found_.added = found_.shots.size() - given_;
+        found_.directions = around_.size();
+        return std::move(found_);
+    }
+
+private:
+    /// Pixels that show a triangle.
+    struct Seen {
+        std::uint32_t triangle;  ///< index into Certificate::triangles
+        std::int32_t pixels;
+    };
+    using Tally = std::vector<Seen>;
+    /// A direction that was looked from.
+    struct Around {
+        GivenView view;
+        Camera camera;
+        Vec3d towards;      ///< the viewer
+        double pixel_area;  ///< square units of the world
+        Tally tally;
+        bool used = false;
+    };
+
+    void place_triangles() {
+        const Scene& scene = job_.scene();
+        for (const Instance& instance : scene.instances) {
+            found_.first.push_back(found_.triangles.size());
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            const Material* const material = raster::material_of(scene, instance);
+            const bool clear = material != nullptr && (material->alpha_mode == AlphaMode::blend || material->transmission > 0.0f);
+            const bool drawn = raster::counts_for_views(scene, instance) && !clear;
+            const double side = determinant3(instance.world_from_object) < 0.0 ? -1.0 : 1.0;
+            TimeCheck check;
+            for (std::size_t i = 0; i + 2 < mesh.indices.size() && mesh.topology == Topology::triangles; i += 3) {
+                check();
+                Vec3d p[3];
+                for (std::size_t k = 0; k < 3; ++k)
+                    p[k] = raster::placed_in_double(instance.world_from_object, mesh.positions[mesh.indices[i + k]]);
+                PlacedTriangle one;
+                one.middle = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
+                one.area_normal = cross(p[1] - p[0], p[2] - p[0]) * (0.5 * side);
+                for (const Vec3d& corner : p) one.reach = std::max(one.reach, length(corner - one.middle));
+                one.two_sided = material != nullptr && material->double_sided;
+                placed_.push_back(one);
+                const double area = length(one.area_normal);
+                TriangleView& triangle = found_.triangles.emplace_back();
+                if (!drawn)
+                    triangle.status = TriangleStatus::not_drawn;
+                else if (!(area > 1e-12 * one.reach * one.reach))
+                    triangle.status = TriangleStatus::no_area;
+            }
+        }
+        counts_.resize(found_.triangles.size(), 0);
+    }
+
+    Tally count(const ViewShot& shot) {
+        std::vector<std::uint32_t> touched;
+        for (std::size_t i = 0; i < shot.instance.size(); ++i) {
+            if (shot.instance[i] == 0) continue;
+            const std::size_t at = found_.first[shot.instance[i] - 1] + shot.triangle[i] - 1;
+            if (at >= counts_.size() ||
+                job_.scene().meshes[static_cast<std::size_t>(job_.scene().instances[shot.instance[i] - 1].mesh)].topology !=
+                    Topology::triangles)
+                continue;
+            if (counts_[at]++ == 0) touched.push_back(static_cast<std::uint32_t>(at));
+        }
+        Tally tally;
+        tally.reserve(touched.size());
+        for (const std::uint32_t at : touched) {
+            tally.push_back({at, counts_[at]});
+            counts_[at] = 0;
+        }
+        return tally;
+    }
+
+    /// Takes a picture into the certificate.
+    void keep(ViewShot shot, const Tally& tally) {
+        const auto view = static_cast<int>(found_.shots.size());
+        for (const Seen& seen : tally) {
+            TriangleView& triangle = found_.triangles[seen.triangle];
+            if (seen.pixels > triangle.pixels) triangle.pixels = seen.pixels, triangle.view = view;
+        }
+        found_.shots.push_back(std::move(shot));
+    }
+
+    [[nodiscard]] bool is_wanted(std::size_t triangle) const {
+        const TriangleView& one = found_.triangles[triangle];
+        return one.status == TriangleStatus::unknown && one.pixels < limits_.least_pixels;
+    }
+    [[nodiscard]] std::size_t new_triangles(const Tally& tally) const {
+        return static_cast<std::size_t>(std::count_if(
+            tally.begin(), tally.end(), [&](const Seen& seen) { return seen.pixels >= limits_.least_pixels && is_wanted(seen.triangle); }));
+    }
+    [[nodiscard]] bool is_done() const {
+        for (std::size_t i = 0; i < found_.triangles.size(); ++i)
+            if (is_wanted(i)) return false;
+        return true;
+    }
+
+    Result<void> look_around() {
+        const float aspect = static_cast<float>(job_.width) / static_cast<float>(job_.height);
+        for (const GivenView& view : directions_around()) {
+            if (is_done()) return {};
+            ViewSettings side{.azimuth_deg = view.azimuth_deg, .elevation_deg = view.elevation_deg, .orthographic = true};
+            if (view.named && job_.scene().faces_back) side.azimuth_deg += 180.0f;
+            const Camera camera = frame_scene(job_.scene(), job_.film.bounds, aspect, side);
+            auto shot = draw_shot(job_, renderer_, view.name, camera, {.picture = false});
+            if (!shot) return tl::unexpected(shot.error());
+            const double pixel = pixel_size(camera, job_.width, job_.height, 1.0);
+            const Vec4f& back = camera.world_from_camera.c[2];
+            around_.push_back({view, camera, {back.x, back.y, back.z}, pixel * pixel, count(*shot)});
+        }
+        return {};
+    }
+
+    /// Draws a view of the whole model again, and keeps it.
+    Result<void> add(Around& around) {
+        around.used = true;
+        auto shot = draw_shot(job_, renderer_, around.view.name, around.camera, {.picture = false});
+        if (!shot) return tl::unexpected(shot.error());
+        keep(std::move(*shot), around.tally);
+        return {};
+    }
+
+    Result<void> choose_views() {
+        while (found_.shots.size() < limits_.most_views) {
+            Around* best = nullptr;
+            std::size_t most = 0;
+            for (Around& around : around_) {
+                const std::size_t shown = around.used ? 0 : new_triangles(around.tally);
+                if (shown > most) most = shown, best = &around;
+            }
+            if (best == nullptr) return {};
+            if (const auto added = add(*best); !added) return added;
+        }
+        return {};
+    }
+
+    /// Pixels that a triangle would cover if nothing hid it.
+    [[nodiscard]] double expected(std::size_t triangle, const Around& around) const {
+        const PlacedTriangle& one = placed_[triangle];
+        const double towards = dot(one.area_normal, around.towards);
+        return (one.two_sided ? absolute(towards) : std::max(towards, 0.0)) / around.pixel_area;
+    }
+
+    /// The direction in which a triangle was seen best; else the one that it faces most.
+    [[nodiscard]] const Around& best_direction(std::size_t triangle) const {
+        std::size_t best = 0;
+        double most = -1.0;
+        for (std::size_t i = 0; i < around_.size(); ++i)
+            if (const double pixels = expected(triangle, around_[i]) * around_[i].pixel_area; pixels > most) most = pixels, best = i;
+        return around_[best];
+    }
+
+    /// A view by parallel rays in which the triangle would cover many pixels.
+    [[nodiscard]] Camera close_up(std::size_t triangle, const Around& around) const {
+        constexpr double kMoreThanLeast = 4.0;
+        const PlacedTriangle& one = placed_[triangle];
+        Camera camera = around.camera;
+        const double area = expected(triangle, around) * around.pixel_area;
+        const double pixel = std::sqrt(std::max(area, 1e-300) / (kMoreThanLeast * limits_.least_pixels));
+        const double least = 2e-6 * length(to_double(job_.film.bounds.max) - to_double(job_.film.bounds.min));  // float32 positions
+        camera.half_height = static_cast<float>(std::min(std::max(0.5 * job_.height * pixel, least), double{camera.half_height}));
+        const Vec4f &right = camera.world_from_camera.c[0], &up = camera.world_from_camera.c[1];
+        Vec4f& eye = camera.world_from_camera.c[3];
+        const Vec3d from_eye = one.middle - Vec3d{eye.x, eye.y, eye.z};
+        const double x = from_eye.x * right.x + from_eye.y * right.y + from_eye.z * right.z;
+        const double y = from_eye.x * up.x + from_eye.y * up.y + from_eye.z * up.z;
+        eye = {static_cast<float>(eye.x + right.x * x + up.x * y), static_cast<float>(eye.y + right.y * x + up.y * y),
+               static_cast<float>(eye.z + right.z * x + up.z * y), 1.0f};
+        return camera;
+    }
+
+    /// Close-ups of triangles that were too small, and of those that are hidden from all directions as far as pixels could tell.
+    Result<void> look_closely() {
+        constexpr std::size_t kMostTries = 256;
+        std::vector<std::uint32_t> left;
+        for (std::uint32_t i = 0; i < found_.triangles.size(); ++i)
+            if (is_wanted(i) && !is_hidden(i)) left.push_back(i);
+        std::size_t tries = 0;
+        for (const std::uint32_t triangle : left) {
+            if (!is_wanted(triangle)) continue;  // another close-up shows it
+            if (found_.shots.size() >= limits_.most_views || tries++ >= kMostTries || around_.empty()) return {};
+            const Around& around = best_direction(triangle);
+            const Camera camera = close_up(triangle, around);
+            auto shot = draw_shot(job_, renderer_, fmt::format("detail {}", found_.shots.size() + 1), camera, {.picture = false});
+            if (!shot) return tl::unexpected(shot.error());
+            const Tally tally = count(*shot);
+            shot->detail = true;
+            if (new_triangles(tally) > 0) keep(std::move(*shot), tally);
+        }
+        return {};
+    }
+
+    /// No pixel showed it from any direction, of which some would have shown enough of it.
+    [[nodiscard]] bool is_hidden(std::size_t triangle) {
+        if (!were_seen_) mark_seen();
+        return !seen_at_all_[triangle] && directions_of(triangle) > 0;
+    }
+    [[nodiscard]] int directions_of(std::size_t triangle) const {
+        int directions = 0;
+        for (const Around& around : around_) directions += expected(triangle, around) >= limits_.least_pixels ? 1 : 0;
+        return directions;
+    }
+    void mark_seen() {
+        seen_at_all_.assign(found_.triangles.size(), false);
+        for (const Around& around : around_)
+            for (const Seen& seen : around.tally) seen_at_all_[seen.triangle] = true;
+        were_seen_ = true;
+    }
+
+    void settle(std::size_t i) {
+        TriangleView& triangle = found_.triangles[i];
+        if (triangle.status != TriangleStatus::unknown) return;
+        if (triangle.pixels >= limits_.least_pixels)
+            triangle.status = TriangleStatus::seen;
+        else if (triangle.pixels > 0)
+            triangle.status = TriangleStatus::less;
+        else if (is_hidden(i))
+            triangle.status = TriangleStatus::hidden, triangle.directions = directions_of(i);
+        else if (seen_at_all_[i])
+            triangle.status = TriangleStatus::less;  // in a picture that was not kept
+    }
+
+    RenderJob& job_;
+    Renderer& renderer_;
+    CertificateLimits limits_;
+    std::size_t given_;
+    Certificate found_;
+    std::vector<PlacedTriangle> placed_;
+    std::vector<std::int32_t> counts_;  ///< of the picture that is counted
+    std::vector<Around> around_;
+    std::vector<bool> seen_at_all_;
+    bool were_seen_ = false;
+};
+
+}  // namespace
+
+std::size_t Certificate::count(TriangleStatus status, std::span<const int> instances) const {
+    const auto has = [&](const TriangleView& triangle) { return triangle.status == status; };
+    if (instances.empty()) return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(), has));
+    std::size_t sum = 0;
+    for (const int i : instances) {
+        const auto instance = static_cast<std::size_t>(i);
+        const auto begin = triangles.begin() + static_cast<std::ptrdiff_t>(first[instance]);
+        const auto end =
+            instance + 1 < first.size() ? triangles.begin() + static_cast<std::ptrdiff_t>(first[instance + 1]) : triangles.end();
+        sum += static_cast<std::size_t>(std::count_if(begin, end, has));
+    }
+    return sum;
+}
+
+Result<Certificate> certify(RenderJob& job, Renderer& renderer, std::vector<ViewShot> given, const CertificateLimits& limits) {
+    return Certifier(job, renderer, std::move(given), limits).run();
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,55 @@
+// The certificate of `halflit look --certify`: for each triangle of a model, a picture that shows it, or why there is none.
+#pragma once
+
+#include "apps/halflit/look/view_shot.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace halflit::cli {
+
+enum class TriangleStatus : std::uint8_t {
+    seen,      ///< a picture shows it with at least Certificate::least pixels
+    less,      ///< some picture that was looked at shows it, with fewer pixels
+    hidden,    ///< in none of the directions from which it would cover at least Certificate::least pixels did a pixel show it
+    unknown,   ///< no pixel showed it, and it would cover too few from every direction to be called hidden
+    no_area,   ///< two of its corners are one place, or all lie on a line
+    not_drawn  ///< of an instance that is not shown, is transparent, or only takes shadow
+};
+
+/// What is known of a triangle.
+struct TriangleView {
+    TriangleStatus status = TriangleStatus::unknown;
+    int view = -1;                ///< index into Certificate::shots of the picture that shows it with the most pixels; -1: none
+    std::int32_t pixels = 0;      ///< that show it there
+    std::int32_t directions = 0;  ///< hidden: from which it would have covered enough pixels
+};
+
+struct Certificate {
+    int least = 0;                   ///< pixels that count as seen
+    std::size_t directions = 0;      ///< that were looked from, all around
+    std::vector<ViewShot> shots;     ///< the pictures, without colours: first those that were given, then those that were added
+    std::size_t added = 0;           ///< of the pictures
+    std::vector<std::size_t> first;  ///< of each instance's triangles in `triangles`
+    std::vector<TriangleView> triangles;
+
+    /// Every triangle that is drawn and has an area is seen, or hidden.
+    [[nodiscard]] bool complete() const { return count(TriangleStatus::less) == 0 && count(TriangleStatus::unknown) == 0; }
+    /// Triangles of a status, of some instances; of all if `instances` is empty.
+    [[nodiscard]] std::size_t count(TriangleStatus status, std::span<const int> instances = {}) const;
+};
+
+/// What bounds the work.
+struct CertificateLimits {
+    int least_pixels = 4;         ///< from 1
+    std::size_t most_views = 24;  ///< pictures in all, those that were given included
+};
+
+/// Looks for pictures until every triangle is seen. given: the pictures that are there in any case. Others are added as long as they show
+/// more: views of the whole model by parallel rays from up to 126 directions, the one that shows most new triangles first, then close-ups
+/// of what is left.
+[[nodiscard]] Result<Certificate> certify(RenderJob& job, Renderer& renderer, std::vector<ViewShot> given, const CertificateLimits& limits);
+
+}  // namespace halflit::cli
