@@ -1,6 +1,7 @@
 #include "raster/scene/section_hatch.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/mean_color.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <algorithm>
@@ -32,16 +33,6 @@ Result<Texture> make_hatch(bool falls) {
         }
     }
     return Texture::from_rgba16(texels, kHatchTexels, kHatchTexels);
-}
-
-/// Mean colour of a texture: its smallest level.
-Vec3f mean_color(const Scene& scene, const TextureUse& use) {
-    if (!use.used() || static_cast<std::size_t>(use.texture) >= scene.textures.size()) return {1, 1, 1};
-    const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
-    if (texture.levels().empty()) return {1, 1, 1};
-    const std::size_t at = 4 * static_cast<std::size_t>(texture.levels().back().offset);
-    const auto channel = [&](std::size_t c) { return static_cast<float>(texture.data()[at + c]) / 65535.0f; };
-    return {channel(0), channel(1), channel(2)};
 }
 
 }  // namespace

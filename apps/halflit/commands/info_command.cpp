@@ -12,14 +12,14 @@ namespace halflit::cli {
 namespace {
 
 struct InfoOptions : RenderOptions {
-    bool json = false;
+    bool json = false, measure_parts = false;
 };
 
 Result<int> describe(const InfoOptions& options) {
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     for (const std::string& warning : job->warnings) print_warning(warning);
-    const auto described = describe_scene(*job, options.json);
+    const auto described = describe_scene(*job, options.json, options.measure_parts);
     if (!described) return tl::unexpected(described.error());
     if (const auto written = write_text("-", *described); !written) return tl::unexpected(written.error());
     return 0;
@@ -34,7 +34,9 @@ Result<int> run_info(const InfoOptions& options) {
 Command info_command() {
     const auto options = std::make_shared<InfoOptions>();
     auto groups = render_flags(*options, kRenderSize);
-    groups.push_back({"Output", {{"--json", "", "Print one JSON object", set_to(options->json)}}});
+    groups.push_back({"Output",
+                      {{"--json", "", "Print one JSON object", set_to(options->json)},
+                       {"--parts", "", "Measure each part: size, area, volume", set_to(options->measure_parts)}}});
     return {"info", "Describe a scene, and what drawing it requires", {scene_argument(*options, true)}, std::move(groups), [options] {
                 return run_info(*options);
             }};

@@ -8,7 +8,7 @@ namespace halflit::cli {
 Parts::Parts(const Scene& scene) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         of_instance_.push_back(static_cast<int>(i));
-        parts_.push_back({"", {static_cast<int>(i)}});
+        parts_.push_back({"", {static_cast<int>(i)}, -1});
     }
     name_by_meshes(scene);
 }
@@ -22,13 +22,14 @@ Parts::Parts(const LoadedScene& loaded) {
     for (std::size_t node = 0; node < part_of_node.size(); ++node) {
         if (part_of_node[node] < 0) continue;
         part_of_node[node] = static_cast<int>(parts_.size());
-        parts_.push_back({loaded.nodes[node].name, {}});
+        parts_.push_back({loaded.nodes[node].name, {}, loaded.nodes[node].parent});
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i] < 0) continue;
         of_instance_[i] = part_of_node[static_cast<std::size_t>(nodes[i])];
         parts_[static_cast<std::size_t>(of_instance_[i])].instances.push_back(static_cast<int>(i));
     }
+    for (const Node& node : loaded.nodes) groups_.push_back({node.name, node.parent});
     name_by_meshes(loaded.scene);
 }
 

@@ -3,6 +3,7 @@
 #include "apps/halflit/program/stopwatch.hpp"
 #include "apps/halflit/program/timeout.hpp"
 #include "apps/halflit/render/film_view.hpp"
+#include "apps/halflit/render/part_flags.hpp"
 #include "apps/halflit/render/section_flags.hpp"
 #include "apps/io/files/errno_text.hpp"
 #include "halflit/auto_setup.hpp"
@@ -163,7 +164,8 @@ PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureS
         return request;
     }
     request.scene_camera = options.camera;
-    request.frame = options.own_view() || (options.film.turntable > 0 && !options.camera);  // a turntable goes around the scene
+    // A turntable goes around the scene.
+    request.frame = options.own_view() || options.views_parts() || (options.film.turntable > 0 && !options.camera);
     if (request.frame || (!options.camera && choose_camera(job.scene(), bounds) == nullptr)) {
         const PictureSize size = options.size.value_or(usual);
         const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
@@ -181,7 +183,7 @@ PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureS
 /// What was chosen, for people. given: the flags as they were given.
 void tell_choices(RenderJob& job, const RenderOptions& given) {
     const std::vector<Camera>& cameras = job.scene().cameras;
-    const bool of_file = job.film.file_camera >= 0, whole = given.own_view() || given.film.turntable > 0;
+    const bool of_file = job.film.file_camera >= 0, whole = given.own_view() || given.views_parts() || given.film.turntable > 0;
     job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
                                         !of_file && !cameras.empty() && !whole));
     job.choices.push_back(fmt::format("lights: {}{}{}{}", job.light.all_lights().size(),
@@ -285,6 +287,7 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
         job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
     replace_materials(job.scene(), options.classic);
     if (!options.own_lobes) drop_own_lobes(job.scene());
+    if (const auto chosen = choose_parts(job, options); !chosen) return tl::unexpected(chosen.error());
     const bool moves = options.film.animates() && job.source.motion && job.animation() != nullptr;
     if (moves) {
         const auto swept = swept_bounds(job, options);
@@ -296,6 +299,7 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
             return fail(ErrorCode::usage, "--section: cannot be combined with an animation that moves; --time draws one moment of it");
         if (const auto cut = cut_job(job, options); !cut) return tl::unexpected(cut.error());
     }
+    paint_parts(job, options);
     if (options.ground) add_ground(job.scene(), moves ? job.film.bounds : scene_bounds(job.scene()));
 
     const Stopwatch preparing;

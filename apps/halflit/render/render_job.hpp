@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/halflit/program/stopwatch.hpp"
+#include "apps/halflit/render/part_look.hpp"
 #include "apps/halflit/render/render_options.hpp"
 #include "apps/halflit/render/scene_source.hpp"
 #include "halflit/auto_setup.hpp"
@@ -33,11 +34,12 @@ struct RenderJob {
     Execution execution;
     int width = 0, height = 0;  ///< of the whole picture
     double load_ms = 0, prepare_ms = 0;
-    double pose_time_s = 0;  ///< of the animation, if there is one
-    Stopwatch started;       ///< with the job's loading
-    double timeout_s = 0.0;  ///< from then on; 0: none
-    SectionReport sections;  ///< of the flags' planes
-    Film film;               ///< what the frames of a moving picture share
+    double pose_time_s = 0;         ///< of the animation, if there is one
+    Stopwatch started;              ///< with the job's loading
+    double timeout_s = 0.0;         ///< from then on; 0: none
+    std::vector<PartLook> looks{};  ///< of each part; empty: all as they are
+    SectionReport sections;         ///< of the flags' planes
+    Film film;                      ///< what the frames of a moving picture share
     std::vector<std::string> warnings;
     std::vector<std::string> choices;  ///< what was chosen, one line each
 

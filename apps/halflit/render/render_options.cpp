@@ -6,6 +6,7 @@
 #include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/render/file_flags.hpp"
 #include "apps/halflit/render/lobe_model.hpp"
+#include "apps/halflit/render/part_flags.hpp"
 #include "apps/io/models/formats.hpp"
 #include "halflit/scene.hpp"
 #include "sh/vec3d.hpp"
@@ -345,9 +346,10 @@ FlagGroup line_flags(RenderOptions& o) {
 
 /// The flags that decide the picture and its speed.
 std::vector<FlagGroup> scene_flags(RenderOptions& o, PictureSize usual) {
-    std::vector<FlagGroup> groups{picture_flags(o, usual),    camera_flags(o),        pose_flags(o),    section_flags(o), light_flags(o),
-                                  environment_flags(o),       shadow_flags(o),        surface_flags(o), line_flags(o),    {"Accuracy", {}},
-                                  machine_flags(o.execution), untrusted_file_flags(o)};
+    std::vector<FlagGroup> groups{picture_flags(o, usual), camera_flags(o), pose_flags(o),        part_flags(o),
+                                  section_flags(o),        light_flags(o),  environment_flags(o), shadow_flags(o),
+                                  surface_flags(o),        line_flags(o),   {"Accuracy", {}},     machine_flags(o.execution),
+                                  untrusted_file_flags(o)};
     for (FlagGroup& group : groups) add_setting_flags(group, o.settings, o.given_settings);
     return groups;
 }

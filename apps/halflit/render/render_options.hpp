@@ -22,6 +22,13 @@ namespace halflit::cli {
 /// Picture size of render and info without --size.
 inline constexpr PictureSize kRenderSize{1280, 720};
 
+/// Values of the flags of parts, as given: names, numbers or patterns.
+struct PartFlags {
+    std::vector<std::string> only, hide, ghost, highlight;
+    Vec3f highlight_linear{1.0f, 0.23f, 0.0f};  ///< orange
+    [[nodiscard]] bool any() const { return !only.empty() || !hide.empty() || !ghost.empty() || !highlight.empty(); }
+};
+
 /// Values of the flags. The initial values here are the defaults; the help text prints them.
 struct RenderOptions {
     std::string scene;  ///< a file, "-" for standard input, or a built-in scene
@@ -36,6 +43,7 @@ struct RenderOptions {
     bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation, --zoom, --fit or --view was given
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
+    PartFlags parts{};                                    ///< what is drawn of the scene, and how
     std::vector<GivenSection> sections{};                 ///< planes that cut the scene
     double hatch_spacing = 0.0;                           ///< of caps, in the file's world; 0: chosen
     bool hatch = true;                                    ///< lines on caps
@@ -43,6 +51,8 @@ struct RenderOptions {
 
     /// A camera of the flags, not of the file.
     [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position; }
+    /// Some parts are drawn alone, and no camera of the file is named: the view is of these parts.
+    [[nodiscard]] bool views_parts() const { return !parts.only.empty() && !camera; }
 
     std::optional<std::string> lobe_name;
     io::LobeParameters lobe;

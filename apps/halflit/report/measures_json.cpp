@@ -40,22 +40,10 @@ bool is_soon_measured(const Scene& scene) {
     return drawn <= std::max(kMostTriangles, 2 * stored);
 }
 
-}  // namespace
-
-std::string unit_name(const SceneSource& source) {
-    constexpr ModelFormat kInMetres[] = {ModelFormat::gltf, ModelFormat::glb, ModelFormat::three_mf};
-    for (const ModelFormat format : kInMetres)
-        if (source.file && source.file->format == model_format_name(format)) return "m";
-    return "";
-}
-
-Result<Json> measures_json(const RenderJob& job) {
-    if (!is_soon_measured(job.scene())) return Json(nullptr);
-    const auto measured = measure_geometry(job.scene());
-    if (!measured) return tl::unexpected(measured.error());
-    const Measures& found = *measured;
-    if (found.triangles == found.not_finite_triangles) return Json(nullptr);
-    const Placement& placement = job.source.placement;
+/// All measures, in the file's unit and along its axes; null if nothing has triangles.
+Json in_file_units(const SceneSource& source, const Measures& found) {
+    if (found.triangles == found.not_finite_triangles) return nullptr;
+    const Placement& placement = source.placement;
     const double unit = 1.0 / placement.scale;  // a power of two
     // Quarter turns may exchange the ends of an axis.
     const Vec3d a = placement.out(found.min), b = placement.out(found.max);
@@ -63,8 +51,8 @@ Result<Json> measures_json(const RenderJob& job) {
     const Vec3d max{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
     const Vec3d size = max - min;
     const double largest = std::max({size.x, size.y, size.z});
-    const std::string unit_text = unit_name(job.source);
-    return Json{{"unit", unit_text.empty() ? Json(nullptr) : Json(unit_text)},
+    const std::string name = unit_name(source);
+    return Json{{"unit", name.empty() ? Json(nullptr) : Json(name)},
                 {"min", point_json(min, largest)},
                 {"max", point_json(max, largest)},
                 {"size", point_json(size, largest)},
@@ -80,5 +68,33 @@ Result<Json> measures_json(const RenderJob& job) {
                 {"flipped_edges", found.flipped_edges},
                 {"crowded_edges", found.crowded_edges}};
 }
+
+}  // namespace
+
+std::string unit_name(const SceneSource& source) {
+    constexpr ModelFormat kInMetres[] = {ModelFormat::gltf, ModelFormat::glb, ModelFormat::three_mf};
+    for (const ModelFormat format : kInMetres)
+        if (source.file && source.file->format == model_format_name(format)) return "m";
+    return "";
+}
+
+Result<Json> measures_json(const RenderJob& job) {
+    if (!is_soon_measured(job.scene())) return Json(nullptr);
+    const auto measured = measure_geometry(job.scene());
+    if (!measured) return tl::unexpected(measured.error());
+    return in_file_units(job.source, *measured);
+}
+
+Result<Json> part_measures_json(const RenderJob& job, const Part& part) {
+    const auto measured = measure_geometry(job.scene(), part.instances);
+    if (!measured) return tl::unexpected(measured.error());
+    const Json all = in_file_units(job.source, *measured);
+    if (all.is_null()) return all;
+    Json chosen;
+    for (const char* key : {"size", "area", "volume", "watertight", "open_edges"}) chosen[key] = all[key];
+    return chosen;
+}
+
+bool parts_are_soon_measured(const RenderJob& job) { return is_soon_measured(job.scene()); }
 
 }  // namespace halflit::cli

@@ -13,4 +13,10 @@ namespace halflit::cli {
 /// drawing the same meshes again and again. Fails after the time limit.
 [[nodiscard]] Result<Json> measures_json(const RenderJob& job);
 
+/// {"size", "area", "volume", "watertight", "open_edges"} of a part, drawn or not, in the same unit. Null if it has no triangles.
+[[nodiscard]] Result<Json> part_measures_json(const RenderJob& job, const Part& part);
+
+/// False where measures_json() is null for the number of triangles.
+[[nodiscard]] bool parts_are_soon_measured(const RenderJob& job);
+
 }  // namespace halflit::cli

@@ -2,6 +2,7 @@
 
 #include "apps/halflit/flags/plan_names.hpp"
 #include "apps/halflit/report/measures_json.hpp"
+#include "apps/halflit/report/part_list.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/scene/mesh_topology.hpp"
@@ -185,7 +186,7 @@ Result<Json> plan_json(const RenderJob& job) {
 
 }  // namespace
 
-Result<std::string> describe_scene(const RenderJob& job, bool json) {
+Result<std::string> describe_scene(const RenderJob& job, bool json, bool measure_parts) {
     const Scene& scene = job.scene();
     Json description = json ? report_head("info") : Json::object();
     description["scene"] = job.source.name;
@@ -196,6 +197,9 @@ Result<std::string> describe_scene(const RenderJob& job, bool json) {
     auto measures = measures_json(job);
     if (!measures) return tl::unexpected(measures.error());
     description["measures"] = std::move(*measures);
+    auto parts = json ? parts_json(job, measure_parts) : parts_text(job, measure_parts);
+    if (!parts) return tl::unexpected(parts.error());
+    description["parts"] = std::move(*parts);
     Json cameras = Json::array();
     for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
     description["cameras"] = std::move(cameras);
