@@ -157,6 +157,7 @@ View picture_view(const Camera& camera, int width, int height, const Region& reg
     View view = make_view(camera, width, height, region, tile_size, settings.samples);
     view.point_size = static_cast<int>(__builtin_lrintf(settings.point_size * 256.0f));
     view.line_width = static_cast<int>(__builtin_lrintf(settings.line_width * 256.0f));
+    lift_lines(view, camera, static_cast<double>(settings.line_width));
     return view;
 }
 

@@ -21,8 +21,15 @@ Offset side_offset(const ScreenVertex& a, const ScreenVertex& b, int width) {
 
 ScreenVertex moved(const ScreenVertex& v, std::int32_t x, std::int32_t y) { return {v.x + x, v.y + y, v.z, v.inv_w}; }
 
-void expand_line(const ScreenVertex& a, const ScreenVertex& b, int width, ScreenVertex* out) {
-    const Offset side = side_offset(a, b, width);
+/// The vertex nearer to the viewer, so that the line lies before the surfaces that it lies on.
+ScreenVertex lifted(ScreenVertex v, const View& view) {
+    v.z = v.z * view.line_depth_scale + view.line_depth_offset;
+    return v;
+}
+
+void expand_line(const ScreenVertex& first, const ScreenVertex& second, const View& view, ScreenVertex* out) {
+    const ScreenVertex a = lifted(first, view), b = lifted(second, view);
+    const Offset side = side_offset(a, b, view.line_width);
     out[0] = moved(a, side.x, side.y);
     out[1] = moved(a, -side.x, -side.y);
     out[2] = moved(b, -side.x, -side.y);
@@ -74,7 +81,7 @@ void transform_quads(const RasterKernels& kernels, const TransformArgs& args, co
         for (std::int64_t i = 0; i + 1 < count; i += 2) {
             const std::uint8_t a = codes[i] & kKept, b = codes[i + 1] & kKept;
             if (((a | b) & (kNear | kGuard | kNotFinite)) == 0)
-                expand_line(screen[i], screen[i + 1], view.line_width, out + 2 * i);
+                expand_line(screen[i], screen[i + 1], view, out + 2 * i);
             else
                 for (int k = 0; k < 4; ++k) out[2 * i + k] = {};
             for (int k = 0; k < 4; ++k) out_codes[2 * i + k] = k < 2 ? a : b;
@@ -119,7 +126,7 @@ bool clip_line(const double (&clip)[2][4], const View& view, ClippedLine& out) {
         end[k].x = limit(end[k].x, v.half_width);
         end[k].y = limit(end[k].y, v.half_height);
     }
-    expand_line(end[0], end[1], view.line_width, out.corner);
+    expand_line(end[0], end[1], view, out.corner);
     return true;
 }
 

@@ -73,6 +73,12 @@ DepthMap depth_map(const Camera& camera, float picture_aspect) {
     return orthographic_depth(camera, seen_sides(camera, usable_aspect(picture_aspect)).half);
 }
 
+double half_extent(const Camera& camera, float picture_aspect) {
+    const double aspect = usable_aspect(picture_aspect);
+    const HalfView half = seen_sides(camera, aspect).half;
+    return larger(half.y, half.x / aspect);
+}
+
 Mat4 clip_from_world(const Camera& camera, float picture_aspect) {
     const SeenSides seen = seen_sides(camera, usable_aspect(picture_aspect));
     const HalfView half = seen.half;

@@ -23,6 +23,10 @@ struct DepthMap {
 };
 [[nodiscard]] DepthMap depth_map(const Camera& camera, float aspect);
 
+/// Half the height of what the picture shows: world units in an orthographic view, else tangent of the angle. Of pixels that are not
+/// square, the longer side counts.
+[[nodiscard]] double half_extent(const Camera& camera, float aspect);
+
 /// clip_from_world with reversed depth: z/w is 1 at the near plane and 0 at the far plane (or at infinity), so that float depth keeps
 /// its precision at any range. x and y in [-w, w], y up. `aspect` is the picture's width / height. A camera made for another aspect shows
 /// more in one direction, never less. The result is finite for every finite world_from_camera: a field of view outside (0, pi) is clamped

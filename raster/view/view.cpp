@@ -45,4 +45,19 @@ View make_view(const Camera& camera, int width, int height, const Region& region
     return view;
 }
 
+void lift_lines(View& view, const Camera& camera, double width_px) {
+    constexpr double kSteepest = 2.0;  // tangent
+    const Viewport& window = view.viewport;
+    const float aspect = window.half_width / window.half_height;
+    const double rise = kSteepest * 0.5 * width_px * half_extent(camera, aspect) / static_cast<double>(window.half_height);
+    const DepthMap depth = depth_map(camera, aspect);
+    if (camera.orthographic) {
+        view.line_depth_offset = static_cast<float>(rise * depth.z_scale);
+        return;
+    }
+    const double scale = 1.0 / (1.0 - (rise < 0.5 ? rise : 0.5));
+    view.line_depth_scale = static_cast<float>(scale);
+    view.line_depth_offset = static_cast<float>(depth.z_scale * (scale - 1.0));
+}
+
 }  // namespace halflit::raster

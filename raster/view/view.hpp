@@ -15,6 +15,8 @@ struct View {
     SamplePattern samples;
     /// Width of lines and side of points, in 1/256 pixel; 0: they are not drawn. Faces of shadow maps leave them out.
     int line_width = 0, point_size = 0;
+    /// Depths of lines are line_depth_scale * z + line_depth_offset (lift_lines).
+    float line_depth_scale = 1.0f, line_depth_offset = 0.0f;
 
     [[nodiscard]] int tile_count() const { return tiles_x * tiles_y; }
     [[nodiscard]] TileRect tile_rect(int tile) const {
@@ -40,5 +42,9 @@ struct View {
 
 /// View of a camera through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4, 8 or 16.
 [[nodiscard]] View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples);
+
+/// Lets lines of this width, in pixels, lie before the surfaces that they lie on: nearer by as much as such a surface, tilted by up to 63
+/// degrees, rises within half the width of the line. In perspective that is a share of the distance.
+void lift_lines(View& view, const Camera& camera, double width_px);
 
 }  // namespace halflit::raster

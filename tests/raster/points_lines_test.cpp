@@ -382,3 +382,55 @@ TEST_CASE("points and lines: they cast no shadow and take those of triangles", "
     scene.instances.push_back({2, translation({0, 12, 0})});
     CHECK(light() < 0.01 * open);
 }
+
+TEST_CASE("lines: those that lie on a surface are seen whole, up to a tilt of 60 degrees", "[raster][lines]") {
+    // A square of two grey triangles, and a star of white lines in its plane. The picture of the lines alone says which pixels they cover.
+    const int samples = GENERATE(1, 4);
+    const bool orthographic = GENERATE(false, true);
+    const double tilt_deg = GENERATE(0.0, 20.0, 40.0, 55.0, 60.0);
+    const int turn = GENERATE(0, 1, 2);
+    CAPTURE(samples, orthographic, tilt_deg, turn);
+    const float c = static_cast<float>(std::cos(tilt_deg * 3.14159265358979 / 180)),
+                s = static_cast<float>(std::sin(tilt_deg * 3.14159265358979 / 180));
+    const auto placed = [&](float x, float y) {
+        const float u = turn == 1 ? y : x, v = turn == 1 ? x : y;
+        return turn == 0 ? Vec3f{u, v * c, v * s} : turn == 1 ? Vec3f{u * c, v, -u * s} : Vec3f{u * c, v, u * s};
+    };
+    std::vector<Vec3f> ends;
+    for (int i = 0; i < 12; ++i) {
+        const double angle = i * 3.14159265358979 / 12;
+        const auto x = static_cast<float>(0.9 * std::cos(angle)), y = static_cast<float>(0.9 * std::sin(angle));
+        ends.push_back(placed(x, y));
+        ends.push_back(placed(-x, -y));
+    }
+    Scene lines = scene_of(lines_at(ends));
+    lines.materials[0].base_color = {1, 1, 1, 1};
+    Scene both = lines;
+    Mesh square;
+    square.positions = {placed(-1, -1), placed(1, -1), placed(1, 1), placed(-1, 1)};
+    square.indices = {0, 1, 2, 0, 2, 3};
+    square.material = 1;
+    both.materials.resize(2);
+    both.materials[1].unlit = both.materials[1].double_sided = true;
+    both.materials[1].base_color = {0.1f, 0.1f, 0.1f, 1};
+    both.meshes.push_back(std::move(square));
+    both.instances.insert(both.instances.begin(), Instance{1, {}});
+    Camera camera;
+    camera.orthographic = orthographic;
+    camera.half_height = 1.2f;
+    camera.fov_y_rad = 0.5f;
+    camera.near_z = 1;
+    camera.world_from_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 5, 1}}};
+    Settings settings = plain(samples);
+    settings.line_width = 2.0f;
+    const auto alone = linear_of(lines, camera, settings), over = linear_of(both, camera, settings);
+    int covered = 0, lost = 0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            if (alpha_at(alone, x, y) < 1.0) continue;
+            ++covered;
+            lost += over[4 * (static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x))] < 1.0f ? 1 : 0;
+        }
+    REQUIRE(covered > 300);
+    CHECK(lost == 0);
+}
