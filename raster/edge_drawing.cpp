@@ -12,9 +12,12 @@ using namespace raster;
 struct Renderer::Impl::EdgeDrawing {
     ModelEdges edges;
     SceneRevision of;  ///< the scene that they were found in
-    float angle_deg = -1.0f;
+    float angle_deg = kNotFound;
     Impl visible;  ///< draws which triangle each pixel's middle shows
     std::vector<std::uint32_t> instance, triangle;
+    MemoryShare memory;
+
+    static constexpr float kNotFound = -1.0f;
 };
 
 Renderer::Impl::Impl() { plan_memory.shadow_texels.emplace(); }
@@ -24,27 +27,37 @@ Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera&
                                         int width, int height, const Execution& execution, Isa isa) {
     if (edge_drawing == nullptr) edge_drawing = std::make_unique<EdgeDrawing>();
     EdgeDrawing& drawing = *edge_drawing;
+    const Region part = seen_region(plan.written, static_cast<double>(settings.edge_width), width, height);
+    const std::size_t pixels = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
+    constexpr std::uint64_t kBytes = 200, kMostTriangles = 1u << 30;  // bytes a triangle: 170 where no vertex is shared; numbers are uint32
+    if (scene.triangle_count() > kMostTriangles) return fail(ErrorCode::limit, "edges: expected at most 2^30 triangles over all instances");
+    drawing.memory.hold(executor.stop(), static_cast<std::size_t>(scene.triangle_count() * kBytes) + pixels * 8);
     if (!(drawing.of == scene.revision()) || drawing.angle_deg != settings.edge_angle_deg) {
+        drawing.angle_deg = EdgeDrawing::kNotFound;  // until the search has ended
         drawing.edges.find(scene.scene(), static_cast<double>(settings.edge_angle_deg));
         drawing.of = scene.revision();
         drawing.angle_deg = settings.edge_angle_deg;
     }
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     drawing.instance.resize(pixels);
     drawing.triangle.resize(pixels);
     Settings plain;  // one sample, in the pixel's middle
     plain.point_size = settings.point_size;
     plain.line_width = settings.line_width;
+    plain.region = part;
     Target target{width, height};
+    target.region_alone = true;
     target.instance = drawing.instance.data();
     target.triangle = drawing.triangle.data();
     Execution silent = execution;
     silent.on_tile = {}, silent.progress = {};
+    if (execution.memory_limit > 0) {
+        const std::size_t held = executor.stop().memory();
+        silent.memory_limit = execution.memory_limit > held ? execution.memory_limit - held : 1;
+    }
     const auto drawn = drawing.visible.render(scene, {}, camera, plain, target, silent, isa, {});
     if (!drawn) return tl::unexpected<Error>(drawn.error());
-    const SeenTriangles seen{width, height, drawing.instance.data(), drawing.triangle.data()};
-    const std::vector<EdgeLine> lines =
-        edge_lines(drawing.edges, camera, seen, settings.edges, settings.hidden_edges == HiddenEdges::dashed, executor);
+    const SeenTriangles seen{width, height, part, drawing.instance.data(), drawing.triangle.data()};
+    const std::vector<EdgeLine> lines = edge_lines(drawing.edges, camera, seen, plan.written, settings, executor);
     paint_lines(lines, settings, plan.written, output, shading::shade_kernels(isa), executor);
     return {};
 }

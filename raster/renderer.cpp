@@ -103,7 +103,7 @@ TileCounts Renderer::Impl::draw_tiles(const PicturePass& pass, const Execution& 
 Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lighting& light, const Camera& camera,
                                             const Settings& settings, const Target& target, const Execution& execution, Isa isa,
                                             RenderReport report, const PixelMask* only) {
-    Stopwatch watch;
+    Stopwatch watch, begun;
     executor.configure(execution);
     plan_memory.stop = &executor.stop();
     plan_memory.for_each_row = [this](int count, const std::function<void(int)>& body) { executor.run(count, body); };
@@ -144,11 +144,20 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
                            only};
     TileCounts behind_counts;
     if (shades && plan.looks_through) behind_counts = draw_behind(pass, execution);
-    TileCounts tiles = draw_tiles(pass, execution, shades && plan.looks_through ? 0.5 : 0.0);
+    const bool has_lines = shades && settings.edges != EdgeChoice::none && only == nullptr;
+    Execution watched = execution;
+    if (has_lines) watched.on_tile = {};  // told after the lines
+    TileCounts tiles = draw_tiles(pass, watched, shades && plan.looks_through ? 0.5 : 0.0);
     tiles.work += behind_counts.work, tiles.fragments_shaded += behind_counts.fragments_shaded;
-    if (shades && settings.edges != EdgeChoice::none)
-        if (auto ok = draw_edges(scene, camera, settings, output, target.width, target.height, execution, isa); !ok)
+    if (has_lines) {
+        const Execution rest = with_time_left(execution, begun.lap() / 1000.0);
+        if (auto ok = draw_edges(scene, camera, settings, output, target.width, target.height, rest, isa); !ok)
             return tl::unexpected<Error>(ok.error());
+        if (execution.on_tile)
+            for (int tile = 0; tile < plan.picture.tile_count(); ++tile)
+                if (const TileRect r = intersection(plan.picture.tile_rect(tile), pass.written); r.width > 0 && r.height > 0)
+                    execution.on_tile({r.x, r.y, r.width, r.height});
+    }
     report.ms.tiles = watch.lap();
 
     report.threads = executor.threads();

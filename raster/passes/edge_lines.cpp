@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kSkin = 1e-5;  ///< of the model's size: a surface so near before a line does not hide it
 
-/// A point in clip space without its depth, and in the world.
+/// A point in clip space, z from 0 at the far plane to w at the near plane, and in the world.
 struct EdgePoint {
-    double x, y, w;
+    double x, y, z, w;
     Vec3d at;
 };
 
 EdgePoint between(const EdgePoint& a, const EdgePoint& b, double t) {
-    return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.w + (b.w - a.w) * t, a.at + (b.at - a.at) * t};
+    return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t, a.at + (b.at - a.at) * t};
 }
 
 /// Cuts the segment to where distance >= 0. False: nothing is left.
@@ -42,7 +42,7 @@ public:
         const Vec4f &back = camera.world_from_camera.c[2], &eye = camera.world_from_camera.c[3];
         back_ = {back.x, back.y, back.z};
         eye_ = {eye.x, eye.y, eye.z};
-        near_w_ = camera.orthographic ? 0.0 : larger_near(camera.near_z);
+        depth_ = depth_map(camera, static_cast<float>(seen.width) / static_cast<float>(seen.height));
         Vec3d low{1e300, 1e300, 1e300}, high = low * -1.0;
         for (const Vec3d& p : edges.places()) {
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -61,18 +61,20 @@ public:
     [[nodiscard]] bool is_line(const ModelEdge& edge, EdgeChoice choice) const {
         if (choice == EdgeChoice::all || edge.kind == EdgeKind::border) return true;
         if (choice == EdgeChoice::feature && edge.kind == EdgeKind::crease) return true;
-        return faces_viewer(edge.face[0]) != faces_viewer(edge.face[1]);
+        const bool differ = faces_viewer(edge.face[0]) != faces_viewer(edge.face[1]);
+        // Where one triangle is turned, one side of a surface that is drawn from one side ends here.
+        return edge.turned ? !differ || edges_.single_sided(edge.face[0]) || edges_.single_sided(edge.face[1]) : differ;
     }
     /// All its triangles turn a side to the viewer that is not drawn.
     [[nodiscard]] bool turned_away(const ModelEdge& edge) const {
         const auto away = [&](std::uint32_t face) { return edges_.single_sided(face) && !faces_viewer(face); };
         return away(edge.face[0]) && away(edge.face[1]);
     }
-    /// The part of the edge before the viewer and near the picture. False: there is none.
+    /// The part of the edge between the near and the far plane and near the picture. False: there is none.
     [[nodiscard]] bool place(const ModelEdge& edge, EdgePoint& a, EdgePoint& b) const {
         a = point(edges_.places()[edge.from]), b = point(edges_.places()[edge.to]);
         constexpr double kBeside = 1.1;  // of the picture's half sides: lines have a width
-        return cut(a, b, [&](const EdgePoint& p) { return p.w - near_w_; }) &&
+        return cut(a, b, [](const EdgePoint& p) { return p.w - p.z; }) && cut(a, b, [](const EdgePoint& p) { return p.z; }) &&
                cut(a, b, [](const EdgePoint& p) { return kBeside * p.w - p.x; }) &&
                cut(a, b, [](const EdgePoint& p) { return kBeside * p.w + p.x; }) &&
                cut(a, b, [](const EdgePoint& p) { return kBeside * p.w - p.y; }) &&
@@ -86,12 +88,15 @@ public:
     [[nodiscard]] bool is_hidden(const EdgePoint& p, const ModelEdge& edge) const {
         const Vec3d eye = orthographic_ ? p.at + back_ * (2.0 * size_ + length(eye_ - p.at)) : eye_, ray = p.at - eye;
         const double before = 1.0 - skin_ / length(ray);
-        const int px = static_cast<int>(std::floor(window_x(p))), py = static_cast<int>(std::floor(window_y(p)));
+        // Beside the picture, the pixel at its rim.
+        const int px = pixel(window_x(p), seen_.width), py = pixel(window_y(p), seen_.height);
+        const Region& part = seen_.region;
         std::array<std::uint32_t, 9> looked_at;
         std::size_t count = 0;
-        for (int y = std::max(py - 1, 0); y <= std::min(py + 1, seen_.height - 1); ++y)
-            for (int x = std::max(px - 1, 0); x <= std::min(px + 1, seen_.width - 1); ++x) {
-                const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(seen_.width) + static_cast<std::size_t>(x);
+        for (int y = std::max(py - 1, part.y); y <= std::min(py + 1, part.y + part.height - 1); ++y)
+            for (int x = std::max(px - 1, part.x); x <= std::min(px + 1, part.x + part.width - 1); ++x) {
+                const std::size_t at =
+                    static_cast<std::size_t>(y - part.y) * static_cast<std::size_t>(part.width) + static_cast<std::size_t>(x - part.x);
                 if (seen_.instance[at] == 0) continue;
                 const std::uint32_t face = edges_.face(seen_.instance[at] - 1, seen_.triangle[at] - 1);
                 if (face == ModelEdges::kNone || std::find(looked_at.begin(), looked_at.begin() + count, face) != looked_at.begin() + count)
@@ -103,11 +108,15 @@ public:
     }
 
 private:
-    static double larger_near(float near_z) { return near_z > 0.0f && near_z < 1e30f ? near_z : 1e-6; }
-
     [[nodiscard]] EdgePoint point(Vec3d p) const {
         const Vec3d clip = ((columns_[0] * p.x + columns_[1] * p.y) + columns_[2] * p.z) + columns_[3];
-        return {clip.x, clip.y, clip.z, p};
+        return {clip.x, clip.y, depth_.z_scale * dot(back_, p - eye_) + depth_.z_offset, clip.z, p};
+    }
+    static int pixel(double window, int size) { return static_cast<int>(window > 0.0 ? window < size ? window : size - 1 : 0.0); }
+    /// Beyond the near plane.
+    [[nodiscard]] bool is_drawn(Vec3d p) const {
+        const double z = dot(back_, p - eye_);
+        return depth_.z_scale * z + depth_.z_offset <= (orthographic_ ? 1.0 : -z);
     }
 
     /// Where a ray meets a triangle's plane [MT97].
@@ -138,7 +147,8 @@ private:
             const Meeting met = meet(face, eye, ray);
             if (met.side == 0 || (step > 0 && met.side != side)) return false;
             side = met.side;
-            if (met.beyond < 0) return face != edge.face[0] && face != edge.face[1] && met.t > 0.0 && met.t < before;
+            if (met.beyond < 0)
+                return face != edge.face[0] && face != edge.face[1] && met.t > 0.0 && met.t < before && is_drawn(eye + ray * met.t);
             face = edges_.neighbour(face, met.beyond);
         }
         return false;
@@ -149,7 +159,8 @@ private:
     bool orthographic_;
     Vec3d columns_[4];  // rows x, y and w of clip_from_world
     Vec3d back_, eye_;
-    double near_w_ = 0.0, size_ = 1.0, skin_ = 0.0;
+    DepthMap depth_{};
+    double size_ = 1.0, skin_ = 0.0;
 };
 
 /// An edge in the picture.
@@ -164,20 +175,42 @@ struct PlacedEdge {
 /// Parts of an edge that are seen, and hidden ones.
 class EdgeSplitter {
 public:
-    EdgeSplitter(const EdgeView& view, const ModelEdges& edges, bool hidden_too) : view_(view), edges_(edges), hidden_too_(hidden_too) {}
+    /// drawn: pixels that the lines are for.
+    EdgeSplitter(const EdgeView& view, const ModelEdges& edges, const Region& drawn, const Settings& settings)
+        : view_(view),
+          edges_(edges),
+          drawn_(drawn),
+          beside_(beside(settings.edge_width)),
+          hidden_too_(settings.hidden_edges == HiddenEdges::dashed) {}
+
+    /// Pixels beside those that are drawn in which a line is followed: half of its width, and a step at each end of a part.
+    static double beside(double edge_width) { return 0.5 * (edge_width > 1.0 ? edge_width : 1.0) + 3.5; }
 
     void split(const PlacedEdge& placed, std::vector<EdgeLine>& lines) const {
         const ModelEdge& edge = edges_.edges()[placed.edge];
+        const double x0 = view_.window_x(placed.a), y0 = view_.window_y(placed.a);
+        const double x1 = view_.window_x(placed.b), y1 = view_.window_y(placed.b);
+        double first = 0.0, last = 1.0;
+        if (!narrow(x0 - drawn_.x, x1 - x0, drawn_.width, first, last) || !narrow(y0 - drawn_.y, y1 - y0, drawn_.height, first, last))
+            return;
+        const auto add = [&](double t0, double t1, bool hidden) {
+            if (hidden && !hidden_too_) return;
+            if (placed.backward)
+                lines.push_back({x1, y1, x0, y0, 1.0 - t1, 1.0 - t0, placed.begin_px, hidden});
+            else
+                lines.push_back({x0, y0, x1, y1, t0, t1, placed.begin_px, hidden});
+        };
         if (view_.turned_away(edge)) {
-            add(placed, 0.0, 1.0, true, lines);
+            add(0.0, 1.0, true);
             return;
         }
-        constexpr double kStep = 1.0;  // pixels
-        const int steps = std::max(1, static_cast<int>(std::min(placed.length_px / kStep, 1e5)));
+        const int steps = std::max(1, static_cast<int>(std::min(placed.length_px, 1e5)));  // of a pixel
+        const auto step_at = [&](double t) { return std::clamp(static_cast<int>(t * steps - 0.5), 0, steps - 1); };
         const auto hidden_at = [&](double t) { return view_.is_hidden(at(placed, t), edge); };
-        double begin = 0.0, before = 0.5 / steps;
+        const int begin_step = step_at(first), end_step = std::min(step_at(last) + 1, steps - 1);
+        double begin = 0.0, before = (begin_step + 0.5) / steps;
         bool hidden = hidden_at(before);
-        for (int i = 1; i < steps; ++i) {
+        for (int i = begin_step + 1; i <= end_step; ++i) {
             const double t = (i + 0.5) / steps;
             if (hidden_at(t) != hidden) {
                 double low = before, high = t;
@@ -186,13 +219,13 @@ public:
                     (hidden_at(middle) == hidden ? low : high) = middle;
                 }
                 const double end = 0.5 * (low + high);
-                add(placed, begin, end, hidden, lines);
+                add(begin, end, hidden);
                 begin = end;
                 hidden = !hidden;
             }
             before = t;
         }
-        add(placed, begin, 1.0, hidden, lines);
+        add(begin, 1.0, hidden);
     }
 
 private:
@@ -201,19 +234,19 @@ private:
         const double along = t * e.a.w / (e.b.w + (e.a.w - e.b.w) * t);
         return between(e.a, e.b, along);
     }
-    void add(const PlacedEdge& e, double t0, double t1, bool hidden, std::vector<EdgeLine>& lines) const {
-        if (hidden && !hidden_too_) return;
-        const double x0 = view_.window_x(e.a), y0 = view_.window_y(e.a), dx = view_.window_x(e.b) - x0, dy = view_.window_y(e.b) - y0;
-        EdgeLine line{x0 + dx * t0, y0 + dy * t0, x0 + dx * t1, y0 + dy * t1, e.begin_px + t0 * e.length_px, hidden};
-        if (e.backward) {
-            std::swap(line.x0, line.x1), std::swap(line.y0, line.y1);
-            line.begin_px = e.begin_px + (1.0 - t1) * e.length_px;
-        }
-        lines.push_back(line);
+    /// Cuts shares of a line's length to where from + share * run lies within [0, size], or little beside. False: nothing is left.
+    [[nodiscard]] bool narrow(double from, double run, int size, double& first, double& last) const {
+        const double low = -beside_ - from, high = size + beside_ - from;
+        if (run == 0.0) return low <= 0.0 && high >= 0.0;
+        first = std::max(first, (run > 0.0 ? low : high) / run);
+        last = std::min(last, (run > 0.0 ? high : low) / run);
+        return first <= last;
     }
 
     const EdgeView& view_;
     const ModelEdges& edges_;
+    Region drawn_;
+    double beside_;
     bool hidden_too_;
 };
 
@@ -254,40 +287,43 @@ void join_edges(const ModelEdges& edges, std::vector<PlacedEdge>& placed) {
     for (std::uint32_t i = 0; i < placed.size(); ++i) follow(i, false);  // rings
 }
 
+/// Calls body(i, found) for each i below count, on all threads, and appends what was found to `all`, in the order of i.
+template <std::size_t kChunk, class T, class Body>
+void each_chunk(std::size_t count, std::vector<T>& all, Executor& executor, const Body& body) {
+    std::vector<std::vector<T>> found((count + kChunk - 1) / kChunk);
+    executor.run(static_cast<int>(found.size()), [&](int chunk) {
+        const std::size_t begin = static_cast<std::size_t>(chunk) * kChunk;
+        for (std::size_t i = begin; i < std::min(count, begin + kChunk); ++i) body(i, found[static_cast<std::size_t>(chunk)]);
+    });
+    for (const std::vector<T>& some : found) all.insert(all.end(), some.begin(), some.end());
+}
+
 }  // namespace
 
-std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const SeenTriangles& seen, EdgeChoice choice,
-                                 bool hidden_too, Executor& executor) {
+Region seen_region(const Region& drawn, double edge_width, int width, int height) {
+    const int beside = static_cast<int>(EdgeSplitter::beside(edge_width)) + 2;  // and the pixels around a point
+    const int x = std::max(drawn.x - beside, 0), y = std::max(drawn.y - beside, 0);
+    return {x, y, std::min(drawn.x + drawn.width + beside, width) - x, std::min(drawn.y + drawn.height + beside, height) - y};
+}
+
+std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const SeenTriangles& seen, const Region& drawn,
+                                 const Settings& settings, Executor& executor) {
     const EdgeView view(edges, camera, seen);
-    constexpr std::size_t kChunk = 2048;
-    const auto chunked = [&](std::size_t count, const auto& body) {
-        executor.run(static_cast<int>((count + kChunk - 1) / kChunk), [&](int chunk) {
-            const std::size_t begin = static_cast<std::size_t>(chunk) * kChunk;
-            body(static_cast<std::size_t>(chunk), begin, std::min(count, begin + kChunk));
-        });
-    };
-    std::vector<std::vector<PlacedEdge>> found((edges.edges().size() + kChunk - 1) / kChunk);
-    chunked(edges.edges().size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const ModelEdge& edge = edges.edges()[i];
-            PlacedEdge placed{static_cast<std::uint32_t>(i), {}, {}, 0.0};
-            if (!view.is_line(edge, choice) || (!hidden_too && view.turned_away(edge)) || !view.place(edge, placed.a, placed.b)) continue;
-            const double dx = view.window_x(placed.b) - view.window_x(placed.a), dy = view.window_y(placed.b) - view.window_y(placed.a);
-            placed.length_px = std::sqrt(dx * dx + dy * dy);
-            found[chunk].push_back(placed);
-        }
-    });
+    const bool hidden_too = settings.hidden_edges == HiddenEdges::dashed;
     std::vector<PlacedEdge> placed;
-    for (const auto& some : found) placed.insert(placed.end(), some.begin(), some.end());
+    each_chunk<2048>(edges.edges().size(), placed, executor, [&](std::size_t i, std::vector<PlacedEdge>& found) {
+        const ModelEdge& edge = edges.edges()[i];
+        PlacedEdge at{static_cast<std::uint32_t>(i), {}, {}, 0.0};
+        if (!view.is_line(edge, settings.edges) || (!hidden_too && view.turned_away(edge)) || !view.place(edge, at.a, at.b)) return;
+        const double dx = view.window_x(at.b) - view.window_x(at.a), dy = view.window_y(at.b) - view.window_y(at.a);
+        at.length_px = std::sqrt(dx * dx + dy * dy);
+        found.push_back(at);
+    });
     if (hidden_too) join_edges(edges, placed);
 
-    const EdgeSplitter splitter(view, edges, hidden_too);
-    std::vector<std::vector<EdgeLine>> split((placed.size() + kChunk - 1) / kChunk);
-    chunked(placed.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) splitter.split(placed[i], split[chunk]);
-    });
+    const EdgeSplitter splitter(view, edges, drawn, settings);
     std::vector<EdgeLine> lines;
-    for (const auto& some : split) lines.insert(lines.end(), some.begin(), some.end());
+    each_chunk<64>(placed.size(), lines, executor, [&](std::size_t i, std::vector<EdgeLine>& split) { splitter.split(placed[i], split); });
     return lines;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 namespace halflit::raster {
@@ -19,18 +20,18 @@ public:
 
     void add(const EdgeLine& line, double width) {
         const double w = line.hidden ? larger(kHiddenWidth * width, 1.0) : width;
-        if (!touches(line, w)) return;
         if (!line.hidden) {
-            segment(line.x0, line.y0, line.x1, line.y1, w, 1.0);
+            segment(line, line.t0, line.t1, w, 1.0);
             return;
         }
         const double dx = line.x1 - line.x0, dy = line.y1 - line.y0, length = std::sqrt(dx * dx + dy * dy);
         const double period = (kDash + kGap) * w, dash = (kDash - 1.0) * w;  // a round end at each side
         if (!(length > 0.0)) return;
-        for (double k = std::floor(line.begin_px / period); k * period < line.begin_px + length; k += 1.0) {
-            const double from = larger(k * period - line.begin_px, 0.0) / length;
-            const double to = smaller(k * period + dash - line.begin_px, length) / length;
-            if (from < to) segment(line.x0 + dx * from, line.y0 + dy * from, line.x0 + dx * to, line.y0 + dy * to, w, kHiddenShare);
+        const double end = line.begin_px + line.t1 * length;
+        for (double k = std::floor((line.begin_px + line.t0 * length) / period); k * period < end; k += 1.0) {
+            const double from = larger((k * period - line.begin_px) / length, line.t0);
+            const double to = smaller((k * period + dash - line.begin_px) / length, line.t1);
+            if (from < to) segment(line, from, to, w, kHiddenShare);
         }
     }
     [[nodiscard]] const std::uint8_t* row(int y) const { return &cover_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_)]; }
@@ -39,29 +40,26 @@ private:
     static double larger(double a, double b) { return a < b ? b : a; }
     static double smaller(double a, double b) { return b < a ? b : a; }
 
-    [[nodiscard]] bool touches(const EdgeLine& line, double width) const {
-        const double reach = 0.5 * width + 1.0;
-        return larger(line.y0, line.y1) + reach > y_ && smaller(line.y0, line.y1) - reach < y_ + height_ &&
-               larger(line.x0, line.x1) + reach > x_ && smaller(line.x0, line.x1) - reach < x_ + width_;
-    }
-
-    void segment(double x0, double y0, double x1, double y1, double width, double share) {
-        const double reach = 0.5 * width + 0.5, thin = smaller(width, 1.0), dx = x1 - x0, dy = y1 - y0, squared = dx * dx + dy * dy;
+    /// The part of a line from one share of its length to another.
+    void segment(const EdgeLine& line, double t0, double t1, double width, double share) {
+        const double x0 = line.x0, y0 = line.y0, dx = line.x1 - x0, dy = line.y1 - y0, squared = dx * dx + dy * dy;
+        const double reach = 0.5 * width + 0.5, thin = smaller(width, 1.0);
+        const double begin_x = x0 + dx * t0, begin_y = y0 + dy * t0, end_x = x0 + dx * t1, end_y = y0 + dy * t1;
         const auto bound = [](double v, int low, int high) { return static_cast<int>(larger(low, smaller(v, high))); };
-        const int top = bound(std::floor(smaller(y0, y1) - reach), y_, y_ + height_);
-        const int bottom = bound(std::floor(larger(y0, y1) + reach) + 1.0, y_, y_ + height_);
+        const int top = bound(std::floor(smaller(begin_y, end_y) - reach), y_, y_ + height_);
+        const int bottom = bound(std::floor(larger(begin_y, end_y) + reach) + 1.0, y_, y_ + height_);
         for (int y = top; y < bottom; ++y) {
             const double py = y + 0.5 - y0;
             // Columns that the line may touch in this row: those beside the part of it within reach of the row's middle.
-            double from = smaller(x0, x1), to = larger(x0, x1);
+            double from = smaller(begin_x, end_x), to = larger(begin_x, end_x);
             if (absolute(dy) > 1e-9) {
-                const double a = x0 + dx * clamp01((py - reach) / dy), b = x0 + dx * clamp01((py + reach) / dy);
+                const double a = x0 + dx * within((py - reach) / dy, t0, t1), b = x0 + dx * within((py + reach) / dy, t0, t1);
                 from = smaller(a, b), to = larger(a, b);
             }
             const int left = bound(std::floor(from - reach), x_, x_ + width_), right = bound(std::floor(to + reach) + 1.0, x_, x_ + width_);
             std::uint8_t* const row = &cover_[static_cast<std::size_t>(y - y_) * static_cast<std::size_t>(width_)];
             for (int x = left; x < right; ++x) {
-                const double px = x + 0.5 - x0, t = squared > 0.0 ? clamp01((px * dx + py * dy) / squared) : 0.0;
+                const double px = x + 0.5 - x0, t = squared > 0.0 ? within((px * dx + py * dy) / squared, t0, t1) : 0.0;
                 const double ax = px - dx * t, ay = py - dy * t;
                 const double covered = smaller(reach - std::sqrt(ax * ax + ay * ay), thin);
                 if (!(covered > 0.0)) continue;
@@ -70,11 +68,44 @@ private:
             }
         }
     }
-    static double clamp01(double t) { return t > 0.0 ? t < 1.0 ? t : 1.0 : 0.0; }
+    static double within(double t, double low, double high) { return t > low ? t < high ? t : high : low; }
     static double absolute(double t) { return t < 0.0 ? -t : t; }
 
     int x_, y_, width_, height_;
     std::vector<std::uint8_t> cover_;
+};
+
+/// The lines that may touch each band of rows.
+class LineBands {
+public:
+    static constexpr int kRows = 32;
+    LineBands(std::span<const EdgeLine> lines, double width, const Region& region)
+        : first_(static_cast<std::size_t>((region.height + kRows - 1) / kRows) + 1, 0) {
+        const double reach = 0.5 * width + 2.0;
+        const auto each = [&](const auto& visit) {
+            for (std::uint32_t i = 0; i < lines.size(); ++i) {
+                const EdgeLine& line = lines[i];
+                const double dy = line.y1 - line.y0, a = line.y0 + dy * line.t0 - region.y, b = line.y0 + dy * line.t1 - region.y;
+                const double low = (std::min(a, b) - reach) / kRows, high = (std::max(a, b) + reach) / kRows;
+                if (!(high >= 0.0 && low < count())) continue;
+                const int last = high < count() ? static_cast<int>(high) : count() - 1;
+                for (int band = low > 0.0 ? static_cast<int>(low) : 0; band <= last; ++band) visit(static_cast<std::size_t>(band), i);
+            }
+        };
+        each([&](std::size_t band, std::uint32_t) { ++first_[band]; });
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());  // the ends; filling from there leaves the beginnings
+        lines_.resize(first_.back());
+        each([&](std::size_t band, std::uint32_t i) { lines_[--first_[band]] = i; });
+    }
+    [[nodiscard]] int count() const { return static_cast<int>(first_.size()) - 1; }
+    [[nodiscard]] std::span<const std::uint32_t> lines(int band) const {
+        const auto at = static_cast<std::size_t>(band);
+        return std::span(lines_).subspan(first_[at], first_[at + 1] - first_[at]);
+    }
+
+private:
+    std::vector<std::size_t> first_;  ///< of each band in lines_, and the end
+    std::vector<std::uint32_t> lines_;
 };
 
 /// Lays an opaque colour over a pixel of the caller's memory, by a share of 0 to 255.
@@ -123,11 +154,11 @@ private:
 void paint_lines(std::span<const EdgeLine> lines, const Settings& settings, const Region& region, const Output& output,
                  const shading::ShadeKernels& shade, Executor& executor) {
     const OverPixel over(settings.edge_color_linear, output, shade);
-    constexpr int kRows = 32;
-    executor.run((region.height + kRows - 1) / kRows, [&](int band) {
-        const int y0 = region.y + band * kRows, height = std::min(kRows, region.y + region.height - y0);
+    const LineBands bands(lines, settings.edge_width, region);
+    executor.run(bands.count(), [&](int band) {
+        const int y0 = region.y + band * LineBands::kRows, height = std::min(LineBands::kRows, region.y + region.height - y0);
         CoverRows cover(region.x, y0, region.width, height);
-        for (const EdgeLine& line : lines) cover.add(line, settings.edge_width);
+        for (const std::uint32_t line : bands.lines(band)) cover.add(lines[line], settings.edge_width);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < region.width; ++x)
                 if (const unsigned share = cover.row(y)[x]; share > 0) over.paint(region.x + x, y0 + y, share);

@@ -30,15 +30,29 @@ public:
     [[nodiscard]] EdgeKind kind() const {
         if (uses_.size() == 1) return EdgeKind::border;
         if (uses_.size() == 2) return continues(uses_[0], uses_[1]) ? EdgeKind::smooth : EdgeKind::crease;
-        constexpr std::size_t kMostCompared = 16;  // so that an edge of a million triangles takes no million squared
-        const auto some = uses_.first(std::min(uses_.size(), kMostCompared));
-        const auto goes_on = [&](const EdgeUse& a) {
-            return std::any_of(some.begin(), some.end(), [&](const EdgeUse& b) { return upward(a) != upward(b) && continues(a, b); });
-        };
-        return std::all_of(some.begin(), some.end(), goes_on) ? EdgeKind::smooth : EdgeKind::crease;
+        const auto some = compared();
+        return std::all_of(some.begin(), some.end(), [&](const EdgeUse& a) { return next(a, some) != nullptr; }) ? EdgeKind::smooth
+                                                                                                                 : EdgeKind::crease;
     }
+    /// The triangle that continues the first one; the last one where none does.
+    [[nodiscard]] const EdgeUse& partner() const {
+        const EdgeUse* const found = uses_.size() > 2 ? next(uses_[0], compared()) : nullptr;
+        return found != nullptr ? *found : uses_.back();
+    }
+    /// The first one and its partner run along the edge in one direction.
+    [[nodiscard]] bool turned() const { return uses_.size() > 1 && upward(uses_[0]) == upward(partner()); }
 
 private:
+    /// The first of many, so that an edge of a million triangles takes no million squared.
+    [[nodiscard]] std::span<const EdgeUse> compared() const {
+        constexpr std::size_t kMost = 16;
+        return uses_.first(std::min(uses_.size(), kMost));
+    }
+    [[nodiscard]] const EdgeUse* next(const EdgeUse& a, std::span<const EdgeUse> some) const {
+        for (const EdgeUse& b : some)
+            if (upward(a) != upward(b) && continues(a, b)) return &b;
+        return nullptr;
+    }
     [[nodiscard]] bool upward(const EdgeUse& use) const { return surface_.corners()[use.corner()] == low_; }
     /// The surface goes on from one triangle to the other without a bend. Two that run along the edge in one direction face opposite ways:
     /// one of them is turned. A triangle without area bends nothing.
@@ -75,10 +89,9 @@ void ModelEdges::add_surface(const WeldedSurface& surface, double least_cosine) 
         const auto face = [&](const EdgeUse& use) { return first_face + numbers[use.triangle()]; };
         if (uses.size() == 2)
             for (const int k : {0, 1}) neighbours_[3 * std::size_t{face(uses[k])} + uses[k].corner() % 3] = face(uses[1 - k]);
-        edges_.push_back({first_place + low,
-                          first_place + uses[0].high(),
-                          {face(uses.front()), face(uses.back())},
-                          EdgeFaces(surface, normals, low, uses, least_cosine).kind()});
+        const EdgeFaces faces(surface, normals, low, uses, least_cosine);
+        edges_.push_back(
+            {first_place + low, first_place + uses[0].high(), {face(uses.front()), face(faces.partner())}, faces.kind(), faces.turned()});
     });
 }
 

@@ -18,8 +18,11 @@ enum class EdgeKind : std::uint8_t {
 /// An edge between two places. Its triangles run along it from `from` to `to`, or back.
 struct ModelEdge {
     std::uint32_t from, to;  ///< indices into ModelEdges::places()
-    std::uint32_t face[2];   ///< triangles, by their numbers over all instances; for a border both are its one triangle
+    /// Triangles, by their numbers over all instances. For a border both are its one triangle; where a surface of more than two goes on,
+    /// they continue each other.
+    std::uint32_t face[2];
     EdgeKind kind;
+    bool turned;  ///< the two triangles face opposite sides of one surface: one of them is wound the wrong way
 };
 
 /// Edges of all visible instances with triangles but shadow catchers. Instances that follow each other with equal transforms are one

@@ -74,7 +74,7 @@ struct ViewSettings {
 
 /// A direction to look from.
 struct NamedView {
-    std::string_view name;
+    std::string_view name;             ///< a lower-case word
     float azimuth_deg, elevation_deg;  ///< as in ViewSettings
 };
 
