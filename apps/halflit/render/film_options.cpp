@@ -87,9 +87,13 @@ Result<void> check_film_options(const FilmOptions& options, const std::string& o
     }
     if (!options.views.empty() && (options.frames || options.turntable > 0))
         return fail(ErrorCode::usage, "--view: cannot be combined with --frames or --turntable");
+    for (auto view = options.views.begin(); view != options.views.end(); ++view)
+        if (std::any_of(options.views.begin(), view, [&](const GivenView& other) { return other.name == view->name; }))
+            return fail(ErrorCode::usage, fmt::format("--view: expected each side once, found {} twice", view->name));
     if (options.time_held && options.turntable == 0 && options.frames)
         return fail(ErrorCode::usage, "--time: cannot be combined with --frames, whose frame N is at N / --fps seconds");
-    if (output == "-") return fail(ErrorCode::usage, "-o -: cannot be combined with --frames or --turntable, which need a file name");
+    if (output == "-")
+        return fail(ErrorCode::usage, "-o -: cannot be combined with --frames, --turntable or several views, which need a file name");
     if (const auto format = film::film_format_of(output)) return film::check_film_format(output, *format);
     if (options.dither) return fail(ErrorCode::usage, "--dither: expected a .gif file as the output");
     return {};

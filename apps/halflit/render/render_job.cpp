@@ -259,6 +259,13 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
         return fail(
             ErrorCode::usage,
             "--camera: cannot be combined with --view, --fit, --azimuth, --elevation, --zoom or --fov, which make a camera of their own");
+    if (options.fit_px) {
+        const PictureSize size = options.size.value_or(usual);
+        const double most = 0.45 * std::min(size.width, size.height);  // ViewSettings::margin_x ends there
+        if (*options.fit_px > most)
+            return fail(ErrorCode::usage, fmt::format("--fit: expected at most {} pixels, 45 % of the picture's shorter side, found {}",
+                                                      static_cast<int>(most), *options.fit_px));
+    }
     if (options.size)
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
     if (options.max_memory_bytes > 0)
