@@ -317,7 +317,7 @@ std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, 
         if (!view.is_line(edge, settings.edges) || (!hidden_too && view.turned_away(edge)) || !view.place(edge, at.a, at.b)) return;
         const double dx = view.window_x(at.b) - view.window_x(at.a), dy = view.window_y(at.b) - view.window_y(at.a);
         at.length_px = std::sqrt(dx * dx + dy * dy);
-        found.push_back(at);
+        if (at.length_px < 1e6) found.push_back(at);  // NaN where coordinates overflow, or meet the eye
     });
     if (hidden_too) join_edges(edges, placed);
 

@@ -80,7 +80,8 @@ TEST_CASE("views: --fit leaves its pixels free on the tighter side, and as much 
     for (const Case& c : {Case{"front", 4, 2}, Case{"right", 1, 2}, Case{"top", 4, 1}, Case{"bottom", 4, 1}, Case{"back", 4, 2}})
         for (const int fit : {0, 7, 20}) {
             CAPTURE(c.view, fit);
-            REQUIRE(draw(folder, box, {"--view", c.view, "--fit", std::to_string(fit), "--ortho", "--background", "transparent", "-o", "one.png"})
+            REQUIRE(draw(folder, box,
+                         {"--view", c.view, "--fit", std::to_string(fit), "--ortho", "--background", "transparent", "-o", "one.png"})
                         .code == 0);
             const auto free = margins(read_picture(contents(folder.file("one.png"))));
             const double scale = std::min((96 - 2 * fit) / c.width, (80 - 2 * fit) / c.height);  // pixels a unit

@@ -207,7 +207,7 @@ TEST_CASE("edges: a renderer whose search was cancelled or ran out of memory dra
 TEST_CASE("edges: odd scenes are drawn without a fault and in time", "[edges]") {
     constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
     Random random(9);
-    for (int trial = 0; trial < 120; ++trial) {
+    for (int trial = 0; trial < 300; ++trial) {
         Scene scene;
         scene.materials.resize(4);
         scene.materials[1].double_sided = true;
@@ -273,7 +273,7 @@ TEST_CASE("edges: a hundred thousand triangles along one edge, or at one place, 
         scene.instances = {{0, {}}};
         const auto begin = std::chrono::steady_clock::now();
         drawn(scene, with_lines());
-        // 0.5 s on one core; 10^10 steps would take more than ten times as long as this bound
-        CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 5.0);
+        // 0.7 s on one core; 10^10 steps take minutes
+        CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 15.0);
     }
 }

@@ -149,6 +149,20 @@ TEST_CASE("edges: silhouettes of a cube are its outline alone, and all edges are
     check_by_rays(cube, iso_camera(), lines_of(EdgeChoice::all));
 }
 
+TEST_CASE("edges: a mirrored instance has the lines of its mirror image", "[edges]") {
+    Mesh wedge = make_box({1, 0.7f, 0.4f});
+    for (Vec3f& p : wedge.positions)
+        if (p.x > 0) p.y *= 0.3f, p.z *= 2;
+    Mesh image = wedge;
+    for (Vec3f& p : image.positions) p.x = -p.x;
+    for (std::size_t i = 0; i < image.indices.size(); i += 3) std::swap(image.indices[i], image.indices[i + 1]);
+    const Scene mirrored = scene_of(wedge, scaling({-1, 1, 1})), plain = scene_of(image);
+    const Camera camera = view_of(plain, 30, 20, false);
+    const Settings settings = lines_of(EdgeChoice::feature);
+    CHECK(cover_of(mirrored, camera, settings, kSize, kSize).rgba == cover_of(plain, camera, settings, kSize, kSize).rgba);
+    check_by_rays(plain, camera, settings);
+}
+
 TEST_CASE("edges: boxes, tori and shells have the lines that rays see", "[edges]") {
     std::vector<std::pair<const char*, Scene>> scenes;
     scenes.emplace_back("cube", scene_of(make_box({1, 1, 1})));

@@ -83,8 +83,8 @@ TEST_CASE("views: names are the sides of a technical drawing", "[raster][views]"
     scene.meshes.push_back(make_box({1, 2, 3}));
     scene.instances.push_back({0, {}});
     const std::map<std::string, std::pair<Vec3d, Vec3d>> right_and_up = {
-        {"front", {{1, 0, 0}, {0, 1, 0}}}, {"back", {{-1, 0, 0}, {0, 1, 0}}}, {"left", {{0, 0, 1}, {0, 1, 0}}},
-        {"right", {{0, 0, -1}, {0, 1, 0}}}, {"top", {{1, 0, 0}, {0, 0, -1}}}, {"bottom", {{1, 0, 0}, {0, 0, 1}}}};
+        {"front", {{1, 0, 0}, {0, 1, 0}}},  {"back", {{-1, 0, 0}, {0, 1, 0}}}, {"left", {{0, 0, 1}, {0, 1, 0}}},
+        {"right", {{0, 0, -1}, {0, 1, 0}}}, {"top", {{1, 0, 0}, {0, 0, -1}}},  {"bottom", {{1, 0, 0}, {0, 0, 1}}}};
     for (const auto& [name, axes] : right_and_up) {
         const Camera camera = frame_scene(scene, 1.0f, named(name));
         CAPTURE(name);
