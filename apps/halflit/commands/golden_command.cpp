@@ -27,6 +27,7 @@ struct GoldenOptions {
     std::optional<int> max_codes;
     std::optional<double> max_share;
     bool json = false;
+    bool reframe = false;  ///< of update
 };
 
 Result<int> finish(const std::vector<GoldenResult>& results, const GoldenOptions& options, const std::string& text) {
@@ -38,6 +39,7 @@ Result<int> finish(const std::vector<GoldenResult>& results, const GoldenOptions
 }
 
 Result<int> run_check(const GoldenOptions& options) {
+    if (options.reframe) return fail(ErrorCode::usage, "golden check: takes no --reframe, which records cameras");
     const auto list = read_golden_list(options.folder);
     if (!list) return tl::unexpected(list.error());
     const auto scenes = chosen_scenes(*list, options.names);
@@ -89,15 +91,21 @@ Result<int> run_update(const GoldenOptions& options) {
     const auto scenes = chosen_scenes(*list, options.names);
     if (!scenes) return tl::unexpected(scenes.error());
     const auto before = list->hashes;
-    auto results = update_golden(*list, *scenes);
+    const auto cameras_before = list->cameras;
+    auto results = update_golden(*list, *scenes, options.reframe);
     for (const auto& [name, hash] : before)
         if (std::none_of(list->scenes.begin(), list->scenes.end(),
                          [&, &name = name](const GoldenScene& scene) { return scene.name == name; })) {
             list->hashes.erase(name);
             print_note(fmt::format("{} is no longer in the list; {} is left", name, printable(list->picture(name))));
         }
+    std::erase_if(list->cameras, [&](const auto& camera) {
+        return std::none_of(list->scenes.begin(), list->scenes.end(), [&](const GoldenScene& scene) { return scene.name == camera.first; });
+    });
     if (list->hashes != before)
         if (const auto written = write_golden_hashes(*list); !written) return tl::unexpected(written.error());
+    if (list->cameras != cameras_before)
+        if (const auto written = write_golden_cameras(*list); !written) return tl::unexpected(written.error());
     const std::string text = update_text(results);
     std::vector<DiffedFile> failed;
     std::copy_if(results.begin(), results.end(), std::back_inserter(failed),
@@ -130,6 +138,9 @@ Command golden_command() {
               .form = "DIR"},
              {.name = "NAME", .help = "Scenes of the list; without a name, all of them", .read = append_to(o.names), .repeated = true}},
             {{"Flags", {{"--json", "", "Print one JSON object", set_to(o.json)}}},
+             {"Update",
+              {{"--reframe", "", "Frame the pictures anew (default: by the cameras that were recorded when they were first drawn)",
+                set_to(o.reframe)}}},
              {"Check",
               {{"-o,--output", "DIR", "Folder for index.html and the pictures that differ (default DIR/report)",
                 [&o](const std::string& text) { return assign(o.report, parse_folder(text)); }},

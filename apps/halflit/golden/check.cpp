@@ -21,24 +21,50 @@ namespace fs = std::filesystem;
 
 std::string hash_of(const Image& picture) { return fmt::format("{:016x}", pixel_hash(picture.rgba8)); }
 
-Result<Image> draw(const GoldenList& list, const GoldenScene& scene) {
-    const auto options = golden_options(list, scene);
+struct DrawnScene {
+    Image image;
+    bool framed = false;
+    std::optional<KeptView> view;  ///< of a framed picture; only with CameraUse::record
+};
+
+enum class CameraUse : std::uint8_t {
+    as_recorded,  ///< without a record: framed
+    record,       ///< the same; those that are framed are also returned
+    reframe       ///< the same, whatever is recorded
+};
+
+/// Draws by the camera that another run reads from the list. It may differ from that of the framing in the last bits.
+Result<void> keep_view(RenderJob& job, RenderOptions& options) {
+    options.kept_view = kept_view(job.camera, job.film.bounds, job.settings.point_size, job.source.placement);
+    return change_job(job, options, kRenderSize, false);
+}
+
+Result<DrawnScene> draw(const GoldenList& list, const GoldenScene& scene, CameraUse cameras) {
+    auto options = golden_options(list, scene);
     if (!options) return tl::unexpected(options.error());
+    if (cameras == CameraUse::reframe) options->kept_view.reset();
     auto job = make_render_job(*options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
-    Image image = make_image(*job, false);
+    DrawnScene drawn;
+    drawn.framed = job->film.framed;
+    if (drawn.framed && cameras != CameraUse::as_recorded) {
+        if (!options->kept_view)
+            if (const auto kept = keep_view(*job, *options); !kept) return tl::unexpected(kept.error());
+        drawn.view = options->kept_view;
+    }
+    Image& image = drawn.image = make_image(*job, false);
     const auto rendered =
         Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->timed_execution());
     if (!rendered) return tl::unexpected(rendered.error());
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) print_warning(scene.name + ": " + warning);
-    return image;
+    return drawn;
 }
 
 /// A scene that is too large fails alone; the others are still drawn.
-Result<Image> draw_within_memory(const GoldenList& list, const GoldenScene& scene) {
+Result<DrawnScene> draw_within_memory(const GoldenList& list, const GoldenScene& scene, CameraUse cameras) {
     try {
-        return draw(list, scene);
+        return draw(list, scene, cameras);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, "out of memory");
     }
@@ -100,20 +126,23 @@ Result<std::vector<GoldenResult>> check_golden(const GoldenList& list, const std
         result.expected_hash = list.hash(scene->name);
         result.tolerance = {options.max_codes.value_or(scene->max_codes.value_or(0)),
                             options.max_share.value_or(scene->max_share.value_or(0.0))};
-        const auto actual = draw_within_memory(list, *scene);
-        if (actual)
-            result.hash = hash_of(*actual);
-        else
+        const auto actual = draw_within_memory(list, *scene, CameraUse::as_recorded);
+        if (actual) {
+            result.hash = hash_of(actual->image);
+            result.framed = actual->framed;
+            result.kept = actual->framed && list.camera(*scene) != nullptr;
+        } else {
             set_failed(result, actual.error());
+        }
         if (actual && result.hash != result.expected_hash)
-            if (const auto compared = compare(list, *actual, options, result); !compared) return tl::unexpected(compared.error());
+            if (const auto compared = compare(list, actual->image, options, result); !compared) return tl::unexpected(compared.error());
         result.ms = watch.ms();
         results.push_back(std::move(result));
     }
     return results;
 }
 
-std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<const GoldenScene*>& scenes) {
+std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<const GoldenScene*>& scenes, bool reframe) {
     std::vector<GoldenResult> results;
     for (const GoldenScene* scene : scenes) {
         const Stopwatch watch;
@@ -123,25 +152,38 @@ std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<cons
         result.scene = scene;
         result.expected_hash = list.hash(scene->name);
         const auto update = [&]() -> Result<void> {
-            const auto actual = draw_within_memory(list, *scene);
-            if (!actual) return tl::unexpected(actual.error());
-            result.hash = hash_of(*actual);
+            const auto drawn = draw_within_memory(list, *scene, reframe ? CameraUse::reframe : CameraUse::record);
+            if (!drawn) return tl::unexpected(drawn.error());
+            const Image& actual = drawn->image;
+            result.hash = hash_of(actual);
+            result.framed = drawn->framed;
+            result.kept = drawn->framed && !reframe && list.camera(*scene) != nullptr;
+            const auto record = [&] {
+                if (drawn->view)
+                    list.cameras[scene->name] = {flags_hash(*scene), *drawn->view};
+                else
+                    list.cameras.erase(scene->name);
+            };
             std::error_code ignored;
             const bool exists = fs::exists(path, ignored);
             const auto before = exists ? io::read_picture(path) : fail(ErrorCode::io, "");
             const bool same = before && hash_of(*before) == result.hash;
-            if (same && result.hash == result.expected_hash) return {};
+            if (same && result.hash == result.expected_hash) {
+                record();
+                return {};
+            }
             if (exists && !same && result.expected_hash.empty())
                 return fail(ErrorCode::io, printable(path) + ": exists, is not in hashes.txt and is not overwritten");
             if (before) {
-                const auto diff = diff_images(*before, *actual, {}, scene->name, "");
+                const auto diff = diff_images(*before, actual, {}, scene->name, "");
                 if (!diff) return tl::unexpected(diff.error());
                 static_cast<DiffedFile&>(result) = *diff;
             }
             if (!same)
-                if (const auto written = write_image(path, *actual); !written) return written;
+                if (const auto written = write_image(path, actual); !written) return written;
             if (result.expected_hash.empty() || !exists) result.status = DiffStatus::missing;
             list.hashes[scene->name] = result.hash;
+            record();
             return {};
         };
         if (const auto updated = update(); !updated) set_failed(result, updated.error());

@@ -17,6 +17,8 @@ struct GoldenResult : DiffedFile {
     std::string hash{};           ///< of the drawn pixels; empty if the scene could not be drawn
     std::string expected_hash{};  ///< empty: none is recorded
     DiffTolerance tolerance{};
+    bool framed = false;  ///< the camera is a view of the whole scene: `kept` if it was recorded, else chosen anew
+    bool kept = false;
     double ms = 0;  ///< for loading, drawing and comparing
 
     // Names of files in the report's folder; empty where there is none.
@@ -37,7 +39,7 @@ struct GoldenCheck {
 
 /// Draws the scenes, writes the pictures whose pixels have changed, and changes the list's hashes. "differs" is a picture that was
 /// replaced, "missing" one that is new. A picture that the hashes do not name is not overwritten, because it may be a texture: that scene
-/// fails.
-[[nodiscard]] std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<const GoldenScene*>& scenes);
+/// fails. Cameras that were framed are recorded in the list; recorded ones stay unless `reframe`.
+[[nodiscard]] std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<const GoldenScene*>& scenes, bool reframe);
 
 }  // namespace halflit::cli

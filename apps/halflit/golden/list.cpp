@@ -7,6 +7,7 @@
 #include "apps/halflit/render/built_in_scenes.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/file_access.hpp"
+#include "halflit/target.hpp"
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kListName = "golden.json";
 constexpr const char* kHashesName = "hashes.txt";
+constexpr const char* kCamerasName = "cameras.txt";
 constexpr const char* kSchema = "halflit.golden-list/1";
 constexpr int kMaxDepth = 16;
 constexpr std::size_t kMaxListBytes = std::size_t{16} << 20;
@@ -125,9 +127,9 @@ Result<std::string> read_text(const std::string& path) {
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
-/// Lines "HASH  NAME"; those that begin with # are comments.
-Result<std::map<std::string, std::string>> hashes_of(const std::string& text) {
-    std::map<std::string, std::string> hashes;
+/// Lines "HASH  NAME", and after another space `rest`; those that begin with # are comments. add(name, hash, rest) takes each.
+template <class Add>
+Result<void> each_line(const std::string& text, const Add& add) {
     int number = 0;
     for (std::size_t start = 0; start < text.size();) {
         const std::size_t end = std::min(text.find('\n', start), text.size());
@@ -136,13 +138,55 @@ Result<std::map<std::string, std::string>> hashes_of(const std::string& text) {
         ++number;
         if (line.ends_with('\r')) line.pop_back();
         if (line.empty() || line[0] == '#') continue;
-        const bool good = line.size() > 18 && line.find_first_not_of("0123456789abcdef") == 16 && line.substr(16, 2) == "  " &&
-                          is_name(line.substr(18)) && hashes.emplace(line.substr(18), line.substr(0, 16)).second;
-        if (!good)
+        const std::size_t space = std::min(line.find(' ', 18), line.size());
+        if (line.size() <= 18 || line.find_first_not_of("0123456789abcdef") != 16 || line.substr(16, 2) != "  " ||
+            !is_name(line.substr(18, space - 18)))
             return fail(ErrorCode::bad_input, fmt::format("line {}: expected 16 hexadecimal digits, two spaces and a new name, found '{}'",
                                                           number, printable(line)));
+        const auto added = add(line.substr(18, space - 18), line.substr(0, 16), line.substr(std::min(space + 1, line.size())));
+        if (!added) return fail(ErrorCode::bad_input, fmt::format("line {}: {}", number, added.error().message));
     }
+    return {};
+}
+
+tl::unexpected<Error> not_new(const std::string& name) {
+    return fail(ErrorCode::bad_input, fmt::format("expected a new name, found '{}' again", printable(name)));
+}
+
+Result<std::map<std::string, std::string>> hashes_of(const std::string& text) {
+    std::map<std::string, std::string> hashes;
+    const auto read = each_line(text, [&](const std::string& name, const std::string& hash, const std::string& rest) -> Result<void> {
+        if (!rest.empty()) return fail(ErrorCode::bad_input, fmt::format("expected nothing after the name, found '{}'", printable(rest)));
+        if (!hashes.emplace(name, hash).second) return not_new(name);
+        return {};
+    });
+    if (!read) return tl::unexpected(read.error());
     return hashes;
+}
+
+Result<std::map<std::string, GoldenCamera>> cameras_of(const std::string& text) {
+    std::map<std::string, GoldenCamera> cameras;
+    const auto read = each_line(text, [&](const std::string& name, const std::string& flags, const std::string& rest) -> Result<void> {
+        const auto view = parse_kept_view(rest);
+        if (!view) return tl::unexpected(view.error());
+        if (!cameras.emplace(name, GoldenCamera{flags, *view}).second) return not_new(name);
+        return {};
+    });
+    if (!read) return tl::unexpected(read.error());
+    return cameras;
+}
+
+/// Reads a file of lines beside golden.json. A missing one leaves `target` as it is.
+template <class Target, class Parse>
+Result<void> read_lines(const std::string& path, Target& target, const Parse& parse) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) return {};
+    const auto text = read_text(path);
+    if (!text) return tl::unexpected(text.error());
+    auto parsed = parse(*text);
+    if (!parsed) return fail(parsed.error().code, printable(path) + ": " + parsed.error().message);
+    target = std::move(*parsed);
+    return {};
 }
 
 /// The path below the folder, which must not leave it.
@@ -206,11 +250,22 @@ Result<std::vector<std::string>> models_below(const std::string& folder) {
 
 }  // namespace
 
+std::string flags_hash(const GoldenScene& scene) {
+    std::string text;
+    for (const std::string& flag : scene.flags) text += flag + '\n';
+    return fmt::format("{:016x}", pixel_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+}
+
 std::string GoldenList::picture(const std::string& name) const { return path_in(folder, name + ".png"); }
 
 std::string GoldenList::hash(const std::string& name) const {
     const auto found = hashes.find(name);
     return found == hashes.end() ? "" : found->second;
+}
+
+const KeptView* GoldenList::camera(const GoldenScene& scene) const {
+    const auto found = cameras.find(scene.name);
+    return found == cameras.end() || found->second.flags != flags_hash(scene) ? nullptr : &found->second.view;
 }
 
 bool has_golden_list(const std::string& folder) {
@@ -219,19 +274,14 @@ bool has_golden_list(const std::string& folder) {
 }
 
 Result<GoldenList> read_golden_list(const std::string& folder) {
-    const std::string list_path = path_in(folder, kListName), hashes_path = path_in(folder, kHashesName);
+    const std::string list_path = path_in(folder, kListName);
     const auto text = read_text(list_path);
     if (!text) return tl::unexpected(text.error());
     auto scenes = scenes_of(*text);
     if (!scenes) return fail(scenes.error().code, printable(list_path) + ": " + scenes.error().message);
-    GoldenList list{folder, std::move(*scenes), {}};
-    std::error_code ignored;
-    if (!fs::exists(hashes_path, ignored)) return list;
-    const auto lines = read_text(hashes_path);
-    if (!lines) return tl::unexpected(lines.error());
-    auto hashes = hashes_of(*lines);
-    if (!hashes) return fail(hashes.error().code, printable(hashes_path) + ": " + hashes.error().message);
-    list.hashes = std::move(*hashes);
+    GoldenList list{folder, std::move(*scenes), {}, {}};
+    if (const auto read = read_lines(path_in(folder, kHashesName), list.hashes, hashes_of); !read) return tl::unexpected(read.error());
+    if (const auto read = read_lines(path_in(folder, kCamerasName), list.cameras, cameras_of); !read) return tl::unexpected(read.error());
     return list;
 }
 
@@ -251,6 +301,12 @@ Result<void> write_golden_hashes(const GoldenList& list) {
     std::string text = "# Hashes of the pixels of the expected pictures; halflit golden update writes this file.\n";
     for (const auto& [name, hash] : list.hashes) text += fmt::format("{}  {}\n", hash, name);
     return write_text(path_in(list.folder, kHashesName), text);
+}
+
+Result<void> write_golden_cameras(const GoldenList& list) {
+    std::string text = "# Hash of the flags, name and camera of each picture that was framed; halflit golden update writes this file.\n";
+    for (const auto& [name, camera] : list.cameras) text += fmt::format("{}  {} {}\n", camera.flags, name, kept_view_text(camera.view));
+    return write_text(path_in(list.folder, kCamerasName), text);
 }
 
 Result<std::vector<const GoldenScene*>> chosen_scenes(const GoldenList& list, const std::vector<std::string>& names) {
@@ -283,6 +339,7 @@ Result<RenderOptions> golden_options(const GoldenList& list, const GoldenScene& 
         if (!path) return tl::unexpected(path.error());
         folder = std::move(*path);
     }
+    if (const KeptView* const camera = list.camera(scene)) options->kept_view = *camera;
     return options;
 }
 

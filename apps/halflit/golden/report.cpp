@@ -62,6 +62,9 @@ std::string description(const GoldenResult& result) {
 
 std::string shown(const std::string& text) { return xml_escaped(printable(text)); }
 
+/// "recorded", "framed" or "given": by the flags or the file.
+const char* camera_name(const GoldenResult& result) { return result.kept ? "recorded" : result.framed ? "framed" : "given"; }
+
 std::string picture(const std::string& file, const char* caption) {
     if (file.empty()) return fmt::format("<figure><figcaption>{}: none</figcaption></figure>\n", caption);
     return fmt::format("<figure><figcaption>{0}</figcaption><a href=\"{1}\"><img src=\"{1}\" alt=\"{0}\"></a></figure>\n", caption,
@@ -87,6 +90,7 @@ Json golden_json(const std::vector<GoldenResult>& results) {
                  {"status", diff_status_name(result.status)},
                  {"pixel_hash", result.hash.empty() ? Json(nullptr) : Json(result.hash)},
                  {"expected_hash", result.expected_hash.empty() ? Json(nullptr) : Json(result.expected_hash)},
+                 {"camera", result.hash.empty() ? Json(nullptr) : Json(camera_name(result))},
                  {"ms", result.ms},
                  {"tolerance", {{"max_codes", result.tolerance.max_codes}, {"max_share", result.tolerance.max_share}}}};
         if (result.diff) one["difference"] = diff_json(*result.diff, result.tolerance);
@@ -101,7 +105,10 @@ std::string golden_page(const GoldenList& list, const std::vector<GoldenResult>&
     const std::string title = failed == 0 ? fmt::format("All {} golden pictures match", results.size())
                                           : fmt::format("{} of {} golden pictures do not match", failed, results.size());
     std::string html = fmt::format(kGoldenHead, title);
-    html += fmt::format("<p>List: <code>{}</code>. The commands draw the pictures again in its folder.</p>\n", shown(list.folder));
+    html += fmt::format(
+        "<p>List: <code>{}</code>. The commands draw the pictures again in its folder; they frame those "
+        "anew whose camera was recorded.</p>\n",
+        shown(list.folder));
     for (const bool failures_now : {true, false})
         for (const GoldenResult& result : results)
             if (result.passed() != failures_now && result.status != DiffStatus::equal) html += section(result);

@@ -121,6 +121,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     if (options.settings.background_environment && job.light.environment == nullptr)
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = choice->camera;
+    job.film.framed |= choice->framed;
     if (choice->framed) warn_of_side(job, front_view(job.scene(), options.view), choice->view);
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
@@ -128,7 +129,8 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     const auto is_given = [&](std::string_view name) {
         return std::find(options.given_settings.begin(), options.given_settings.end(), name) != options.given_settings.end();
     };
-    if (!is_given("point_size")) job.settings.point_size = choice->settings.point_size;
+    if (!is_given("point_size"))
+        job.settings.point_size = options.kept_view ? static_cast<float>(options.kept_view->point_size) : choice->settings.point_size;
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return {};
 }
@@ -150,6 +152,12 @@ PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureS
     PictureRequest request;
     request.size = options.size;
     request.usual_size = usual;
+    job.film.framed = options.kept_view || !options.film.views.empty();
+    if (options.kept_view) {
+        request.camera = camera_of(*options.kept_view, job.source.placement, job.prepared->bounds());
+        job.film.bounds = bounds_of(*options.kept_view, job.source.placement);
+        return request;
+    }
     const Bounds& bounds = job.film.bounds;
     if (!options.film.views.empty()) {
         const PictureSize size = options.size.value_or(usual);

@@ -5,6 +5,7 @@
 #include "apps/halflit/flags/values.hpp"
 #include "apps/halflit/render/classic_material.hpp"
 #include "apps/halflit/render/film_options.hpp"
+#include "apps/halflit/render/kept_view.hpp"
 #include "apps/halflit/render/scene_view.hpp"
 #include "apps/io/files/lobe_name.hpp"
 #include "halflit/auto_setup.hpp"
@@ -44,6 +45,7 @@ struct RenderOptions {
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
     PartFlags parts{};                                    ///< what is drawn of the scene, and how
+    std::optional<KeptView> kept_view{};                  ///< draws by this one what would be framed; of golden alone
     std::vector<GivenSection> sections{};                 ///< planes that cut the scene
     double hatch_spacing = 0.0;                           ///< of caps, in the file's world; 0: chosen
     bool hatch = true;                                    ///< lines on caps

@@ -1,0 +1,148 @@
+#include "apps/halflit/render/kept_view.hpp"
+
+#include "apps/halflit/flags/flags.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "sh/vec3d.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace halflit::cli {
+namespace {
+
+constexpr double kFarthestNumber = 1e38;  // the range of the floats that a camera has
+
+Vec3d column_of(const Mat4& m, std::size_t i) { return {m.c[i].x, m.c[i].y, m.c[i].z}; }
+
+Vec4f column_from(Vec3d v, float w) {
+    const Vec3f f = to_float(v);
+    return {f.x, f.y, f.z, w};
+}
+
+/// The keys of a view in the order of its text. visit(name, numbers): a number, or three.
+template <class View, class Visit>
+void each_key(View& view, const Visit& visit) {
+    const auto point = [&](const char* name, auto& p) { visit(name, std::vector{&p.x, &p.y, &p.z}); };
+    point("eye", view.eye);
+    point("right", view.right);
+    point("up", view.up);
+    point("back", view.back);
+    if (view.orthographic)
+        visit("half_height", std::vector{&view.half_height});
+    else
+        visit("fov_y_rad", std::vector{&view.fov_y_rad});
+    visit("near", std::vector{&view.near_z});
+    visit("far", std::vector{&view.far_z});
+    if (!view.empty) point("low", view.low), point("high", view.high);
+    visit("point_size", std::vector{&view.point_size});
+}
+
+/// Distances of the box's nearest and farthest corner along the view axis.
+std::pair<double, double> depths(const KeptView& view, Vec3d eye, const Bounds& bounds) {
+    double nearest = std::numeric_limits<double>::max(), farthest = -nearest;
+    for (unsigned i = 0; i < 8; ++i) {
+        const Vec3d p{i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y, i & 4 ? bounds.max.z : bounds.min.z};
+        const double depth = dot(eye - p, view.back);
+        nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+    }
+    return {nearest, farthest};
+}
+
+}  // namespace
+
+KeptView kept_view(const Camera& camera, const Bounds& bounds, float point_size, const Placement& placement) {
+    const double unit = 1.0 / placement.scale;  // a power of two
+    const auto out = [&](Vec3d p) { return p * unit + placement.origin; };
+    const Mat4& m = camera.world_from_camera;
+    KeptView view;
+    view.eye = out(column_of(m, 3));
+    view.right = column_of(m, 0), view.up = column_of(m, 1), view.back = column_of(m, 2);
+    view.orthographic = camera.orthographic;
+    if (camera.orthographic)
+        view.half_height = camera.half_height * unit;
+    else
+        view.fov_y_rad = camera.fov_y_rad;
+    view.near_z = camera.near_z * unit, view.far_z = camera.far_z * unit;
+    view.empty = bounds.empty;
+    if (!bounds.empty) view.low = out(to_double(bounds.min)), view.high = out(to_double(bounds.max));
+    view.point_size = point_size;
+    return view;
+}
+
+Camera camera_of(const KeptView& view, const Placement& placement, const Bounds& bounds) {
+    const double scale = placement.scale;
+    const Vec3d eye = (view.eye - placement.origin) * scale;
+    Camera camera;
+    camera.world_from_camera = {{column_from(view.right, 0), column_from(view.up, 0), column_from(view.back, 0), column_from(eye, 1)}};
+    camera.orthographic = view.orthographic;
+    if (view.orthographic)
+        camera.half_height = static_cast<float>(view.half_height * scale);
+    else
+        camera.fov_y_rad = static_cast<float>(view.fov_y_rad);
+    double near_z = view.near_z * scale, far_z = view.far_z * scale;
+    if (!bounds.empty) {
+        const auto [nearest, farthest] = depths(view, eye, bounds);
+        if (view.orthographic) {
+            const double room = 1e-3 * (far_z - near_z);
+            if (nearest < near_z + room) near_z = nearest - room;
+            if (farthest > far_z - room) far_z = farthest + room;
+        } else if (nearest < near_z) {
+            near_z = std::max(nearest / 2, 1e-3 * near_z);
+        }
+    }
+    camera.near_z = static_cast<float>(near_z), camera.far_z = static_cast<float>(far_z);
+    return camera;
+}
+
+Bounds bounds_of(const KeptView& view, const Placement& placement) {
+    Bounds bounds;
+    if (view.empty) return bounds;
+    for (const Vec3d corner : {view.low, view.high}) bounds.add(to_float((corner - placement.origin) * placement.scale));
+    return bounds;
+}
+
+std::string kept_view_text(const KeptView& view) {
+    std::string text;
+    each_key(view, [&](const char* name, const std::vector<const double*>& numbers) {
+        text += fmt::format("{}{}=", text.empty() ? "" : " ", name);
+        for (std::size_t i = 0; i < numbers.size(); ++i) text += fmt::format("{}{}", i == 0 ? "" : ",", *numbers[i]);
+    });
+    return text;
+}
+
+Result<KeptView> parse_kept_view(std::string_view text) {
+    std::vector<std::string> words = words_of(text, ' ');
+    KeptView view;
+    const auto has = [&](std::string_view key) {
+        return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return word.starts_with(key); });
+    };
+    view.orthographic = has("half_height=");
+    view.empty = !has("low=");
+    std::string wrong;
+    std::size_t place = 0;
+    each_key(view, [&](const std::string& name, const std::vector<double*>& numbers) {
+        const std::string word = place < words.size() ? words[place++] : "";
+        if (!wrong.empty()) return;
+        const bool named = word.starts_with(name + "=");
+        const std::vector<std::string> values = named ? words_of(word.substr(name.size() + 1), ',') : std::vector<std::string>{};
+        bool good = values.size() == numbers.size();
+        for (std::size_t i = 0; good && i < values.size(); ++i) {
+            const char* const last = values[i].data() + values[i].size();
+            const auto [end, error] = std::from_chars(values[i].data(), last, *numbers[i]);
+            good = error == std::errc() && end == last && std::abs(*numbers[i]) <= kFarthestNumber;
+        }
+        if (!good)
+            wrong =
+                fmt::format("expected {}= and {}, found '{}'", name, numbers.size() == 1 ? "a number" : "three numbers", printable(word));
+    });
+    if (wrong.empty() && place < words.size()) wrong = fmt::format("expected no more keys, found '{}'", printable(words[place]));
+    if (!wrong.empty()) return fail(ErrorCode::bad_input, wrong);
+    return view;
+}
+
+}  // namespace halflit::cli
