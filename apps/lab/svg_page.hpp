@@ -6,12 +6,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include "apps/halflit/program/base64.hpp"
 #include "apps/halflit/program/xml_text.hpp"
 
 namespace halflit::cli {
-
-/// Bytes in base64, for a data: URL.
-[[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
 
 /// Style of a line of text. `anchor`: start, middle or end.
 struct TextStyle {

@@ -1,4 +1,5 @@
 // Results of `halflit trade` as one HTML page: plots, table, pictures.
+#include "apps/halflit/report/html_page.hpp"
 #include "apps/lab/svg_plot.hpp"
 #include "apps/lab/trade_report.hpp"
 #include "halflit/image.hpp"
@@ -137,13 +138,6 @@ std::string offers_of(const std::vector<TradeRow>& rows, const TradeSpace& space
     return html + "</table>\n";
 }
 
-Result<std::string> picture(const Image& image, const std::string& caption) {
-    const auto png = encode_image(image, OutputFormat::png);
-    if (!png) return tl::unexpected(png.error());
-    return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-                       xml_escaped(caption), base64(*png));
-}
-
 /// Gain of a difference picture: the largest power of two from 1 to 2^14 that keeps `error`, in codes, within 200.
 double gain_for(double error) { return std::exp2(std::clamp(std::floor(std::log2(200 / std::max(error, 1e-9))), 0.0, 14.0)); }
 
@@ -151,11 +145,12 @@ Result<std::string> pictures_of(const TradeRow& row, TradeBench& bench) {
     const auto image = bench.draw(row.choice);
     if (!image) return tl::unexpected(image.error());
     const std::string number = row.number > 0 ? fmt::format("{} ", row.number) : "";
-    auto html = picture(*image, fmt::format("{}{}: time {:.2f}, 99.9 % within {:.3g} codes", number, row.name, row.ratio, row.error.p999));
+    auto html =
+        embedded_figure(*image, fmt::format("{}{}: time {:.2f}, 99.9 % within {:.3g} codes", number, row.name, row.ratio, row.error.p999));
     if (!html) return html;
     const double gain = gain_for(row.error.p999);
-    const auto difference = picture(bench.reference(row.choice.lobe).difference(*image, gain),
-                                    fmt::format("{}{}: difference from the reference, times {:g}", number, row.name, gain));
+    const auto difference = embedded_figure(bench.reference(row.choice.lobe).difference(*image, gain),
+                                            fmt::format("{}{}: difference from the reference, times {:g}", number, row.name, gain));
     if (!difference) return difference;
     return *html + *difference;
 }
@@ -173,7 +168,7 @@ Result<std::string> all_pictures(const std::vector<TradeRow>& rows, TradeBench& 
     if (std::find(wanted.begin(), wanted.end(), worst) == wanted.end()) wanted.push_back(worst);
     for (const TradeRow& row : rows) {
         if (row.choice.accuracy != Accuracy::reference) continue;
-        const auto one = picture(bench.reference_picture(row.choice.lobe), fmt::format("{}: time {:.0f}", row.name, row.ratio));
+        const auto one = embedded_figure(bench.reference_picture(row.choice.lobe), fmt::format("{}: time {:.0f}", row.name, row.ratio));
         if (!one) return one;
         html += *one;
     }

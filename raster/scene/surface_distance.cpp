@@ -2,6 +2,7 @@
 
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/placed_box.hpp"
+#include "raster/scene/triangle_distance.hpp"
 #include "sh/mat4.hpp"
 
 #include <algorithm>
@@ -13,31 +14,6 @@ namespace halflit::raster {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::max();
-
-double squared(Vec3d v) { return dot(v, v); }
-
-/// Squared distance from the origin to the segment from a to b.
-double segment_distance(Vec3d a, Vec3d b) {
-    const Vec3d along = b - a;
-    const double length = squared(along);
-    const double t = length > 0.0 ? std::clamp(-dot(a, along) / length, 0.0, 1.0) : 0.0;
-    return squared(a + along * t);
-}
-
-/// Squared distance from the origin to a triangle: to its plane if the foot of the perpendicular lies inside, otherwise to an edge.
-double triangle_distance(Vec3d a, Vec3d b, Vec3d c) {
-    const Vec3d normal = cross(b - a, c - a);
-    const double area = squared(normal);
-    if (area > 0.0) {
-        const double sides[3] = {dot(cross(b - a, Vec3d{} - a), normal), dot(cross(c - b, Vec3d{} - b), normal),
-                                 dot(cross(a - c, Vec3d{} - c), normal)};
-        if (sides[0] >= 0.0 && sides[1] >= 0.0 && sides[2] >= 0.0) {
-            const double height = dot(a, normal);
-            return height * height / area;
-        }
-    }
-    return std::min({segment_distance(a, b), segment_distance(b, c), segment_distance(c, a)});
-}
 
 /// Squared distance from the origin to the box around a triangle: a tenth of the work of triangle_distance.
 double corners_distance(Vec3d a, Vec3d b, Vec3d c) {
@@ -115,7 +91,7 @@ private:
             // Lines and points are triangles with corners at one place.
             const Vec3d a = vertex(mesh.indices[i]), b = vertex(mesh.indices[i + (corners > 1 ? 1 : 0)]),
                         c = vertex(mesh.indices[i + corners - 1]);
-            if (corners_distance(a, b, c) < nearest_) nearest_ = std::min(nearest_, triangle_distance(a, b, c));
+            if (corners_distance(a, b, c) < nearest_) nearest_ = std::min(nearest_, triangle_distance_squared(a, b, c));
         }
     }
 

@@ -245,6 +245,18 @@ TEST_CASE("schema: bench, info, diff, golden and trade have the keys that their 
     check_report("trade", contents(folder.file("trade/trade.json")));
 }
 
+TEST_CASE("schema: compare has the keys that its schema describes", "[cli][schema]") {
+    const TemporaryFolder folder;
+    const auto compare = [&](const std::string& a, const std::string& b, int code) {
+        check_report("compare", output_of({"compare", a, b, "--size", "32x24", "--json", "-"}, code));
+    };
+    compare("sphere:100", "sphere:100", 0);
+    compare("sphere:100", "demo", 1);
+    write_contents(folder.file("empty.gltf"), R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
+    compare(folder.file("empty.gltf"), "sphere:100", 1);
+    compare(folder.file("empty.gltf"), folder.file("empty.gltf"), 0);
+}
+
 TEST_CASE("schema: explain has the keys that its schema describes", "[cli][schema]") {
     check_report("explain", output_of({"explain", "demo", "--size", "64x36", "--json", "--pixel", "32,20", "--pixel", "0,0", "--pixel",
                                        "40,30", "--max-error", "1"}));

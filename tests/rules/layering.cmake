@@ -38,6 +38,7 @@ set(subfolders
     "apps/halflit/report/=apps/(halflit/(look|farm|golden|commands)|lab|viewer)/"
     "apps/halflit/farm/=apps/(halflit/(golden|commands)|lab|viewer)/"
     "apps/halflit/golden/=apps/(halflit/(farm|commands)|lab|viewer)/"
+    "apps/halflit/compare/=apps/(halflit/(farm|golden|commands)|lab|viewer)/"
     # The C interface and all that stands on io know what is public and what program and library share.
     "apps/io/=apps/(c|halflit|film|viewer|lab|web)/"
     "apps/c/=apps/(halflit|film|viewer|lab|web)/")

@@ -11,6 +11,7 @@ namespace halflit::cli {
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command explain_command();
 [[nodiscard]] Command diff_command();
+[[nodiscard]] Command compare_command();
 [[nodiscard]] Command sheet_command();
 [[nodiscard]] Command look_command();
 [[nodiscard]] Command plan_command();

@@ -1,7 +1,7 @@
 #include "apps/halflit/golden/report.hpp"
 
-#include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/xml_text.hpp"
+#include "apps/halflit/report/html_page.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,34 +11,13 @@
 namespace halflit::cli {
 namespace {
 
-constexpr const char* kGoldenHead = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>halflit golden: {0}</title>
-<style>
-body {{ max-width: 66rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff }}
-h2 {{ margin: 0 0 .25rem; font-size: 1.2rem; overflow-wrap: anywhere }}
-section {{ margin: 1.5rem 0; padding: 1rem; border: 1px solid #ddd; border-left: 6px solid #b00020 }}
-section.within {{ border-left-color: #e69f00 }}
-.status {{ font-weight: 600; color: #b00020 }}
-.within .status {{ color: #8a5a00 }}
-p {{ margin: .25rem 0 }}
-pre {{ margin: .5rem 0; padding: .4rem .6rem; background: #f4f4f4; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 13px }}
-.pictures {{ display: grid; grid-template-columns: repeat(3, 1fr); gap: .75rem; margin-top: .75rem }}
-figure {{ margin: 0; min-width: 0 }}
-figcaption {{ font-size: 14px; color: #444 }}
-img {{ display: block; width: 100%; height: auto; border: 1px solid #ddd;
-  background: repeating-conic-gradient(#ccc 0 25%, #fff 0 50%) 0 0/16px 16px }}
-table {{ border-collapse: collapse; font-size: 14px }}
-th, td {{ padding: .15rem .75rem .15rem 0; text-align: left; border-bottom: 1px solid #e4e4e4; overflow-wrap: anywhere }}
-td:nth-child(2) {{ font-family: monospace }}
-td:nth-child(3), th:nth-child(3) {{ text-align: right }}
-</style>
-</head>
-<body>
-<h1>{0}</h1>
+constexpr const char* kGoldenStyle = R"(section { margin: 1.5rem 0; padding: 1rem; border: 1px solid #ddd; border-left: 6px solid #b00020 }
+section.within { border-left-color: #e69f00 }
+.status { font-weight: 600; color: #b00020 }
+.within .status { color: #8a5a00 }
+pre { margin: .5rem 0; padding: .4rem .6rem; background: #f4f4f4; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 13px }
+td:nth-child(2) { font-family: monospace }
+td:nth-child(3), th:nth-child(3) { text-align: right }
 )";
 
 std::vector<DiffedFile> files_of(const std::vector<GoldenResult>& results) { return {results.begin(), results.end()}; }
@@ -60,8 +39,6 @@ std::string description(const GoldenResult& result) {
                               100 * result.tolerance.max_share);
 }
 
-std::string shown(const std::string& text) { return xml_escaped(printable(text)); }
-
 /// "recorded", "framed" or "given": by the flags or the file.
 const char* camera_name(const GoldenResult& result) { return result.kept ? "recorded" : result.framed ? "framed" : "given"; }
 
@@ -73,8 +50,8 @@ std::string picture(const std::string& file, const char* caption) {
 
 std::string section(const GoldenResult& result) {
     std::string html = fmt::format("<section id=\"{0}\" class=\"{1}\">\n<h2>{0} <span class=\"status\">{1}</span></h2>\n<p>{2}</p>\n",
-                                   shown(result.path), diff_status_name(result.status), shown(description(result)));
-    html += fmt::format("<pre>{}</pre>\n", shown(golden_command_line(*result.scene)));
+                                   page_text(result.path), diff_status_name(result.status), page_text(description(result)));
+    html += fmt::format("<pre>{}</pre>\n", page_text(golden_command_line(*result.scene)));
     if (!result.actual_picture.empty())
         html += "<div class=\"pictures\">\n" + picture(result.expected_picture, "expected") + picture(result.actual_picture, "actual") +
                 picture(result.difference_picture, "difference, stretched to the full range") + "</div>\n";
@@ -104,11 +81,11 @@ std::string golden_page(const GoldenList& list, const std::vector<GoldenResult>&
     const std::size_t failed = failures(results);
     const std::string title = failed == 0 ? fmt::format("All {} golden pictures match", results.size())
                                           : fmt::format("{} of {} golden pictures do not match", failed, results.size());
-    std::string html = fmt::format(kGoldenHead, title);
+    std::string html = page_head("halflit golden", title, kGoldenStyle);
     html += fmt::format(
         "<p>List: <code>{}</code>. The commands draw the pictures again in its folder; they frame those "
         "anew whose camera was recorded.</p>\n",
-        shown(list.folder));
+        page_text(list.folder));
     for (const bool failures_now : {true, false})
         for (const GoldenResult& result : results)
             if (result.passed() != failures_now && result.status != DiffStatus::equal) html += section(result);
@@ -117,8 +94,8 @@ std::string golden_page(const GoldenList& list, const std::vector<GoldenResult>&
     std::string rows;
     for (const GoldenResult& result : results)
         if (result.status == DiffStatus::equal)
-            rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.1f}</td></tr>\n", shown(result.path), result.hash, result.ms);
-    return html + rows + (rows.empty() ? "" : "</table>\n") + "</body>\n</html>\n";
+            rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.1f}</td></tr>\n", page_text(result.path), result.hash, result.ms);
+    return html + rows + (rows.empty() ? "" : "</table>\n") + kPageEnd;
 }
 
 std::string golden_junit(const std::vector<GoldenResult>& results) {
@@ -129,12 +106,13 @@ std::string golden_junit(const std::vector<GoldenResult>& results) {
         const bool error = result.status == DiffStatus::failed;
         errors += error ? 1 : 0;
         ms += result.ms;
-        cases += fmt::format("    <testcase classname=\"golden\" name=\"{}\" time=\"{:.3f}\"", shown(result.path), result.ms / 1e3);
+        cases += fmt::format("    <testcase classname=\"golden\" name=\"{}\" time=\"{:.3f}\"", page_text(result.path), result.ms / 1e3);
         if (result.passed())
             cases += "/>\n";
         else
-            cases += fmt::format(">\n      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n    </testcase>\n", error ? "error" : "failure",
-                                 diff_status_name(result.status), shown(description(result)), shown(golden_command_line(*result.scene)));
+            cases +=
+                fmt::format(">\n      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n    </testcase>\n", error ? "error" : "failure",
+                            diff_status_name(result.status), page_text(description(result)), page_text(golden_command_line(*result.scene)));
     }
     const std::string sums = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\" time=\"{:.3f}\"", results.size(),
                                          failures(results) - errors, errors, ms / 1e3);

@@ -135,18 +135,6 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     return {};
 }
 
-/// The sides that --view asks for. Names are relative to the model's front.
-std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& options) {
-    std::vector<ViewSettings> sides;
-    for (const GivenView& given : options.film.views) {
-        ViewSettings& side = sides.emplace_back(options.view);
-        side.azimuth_deg = given.azimuth_deg + (given.named && scene.faces_back ? 180.0f : 0.0f);
-        side.elevation_deg = given.elevation_deg;
-        side.any_side = !options.fit_px;
-    }
-    return sides;
-}
-
 /// The view that the flags ask for. usual: the size without --size.
 PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureSize usual) {
     PictureRequest request;
@@ -338,6 +326,17 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
 
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
     return within_time(options.timeout_s, [&] { return make_job(options, usual); });
+}
+
+std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& options) {
+    std::vector<ViewSettings> sides;
+    for (const GivenView& given : options.film.views) {
+        ViewSettings& side = sides.emplace_back(options.view);
+        side.azimuth_deg = given.azimuth_deg + (given.named && scene.faces_back ? 180.0f : 0.0f);
+        side.elevation_deg = given.elevation_deg;
+        side.any_side = !options.fit_px;
+    }
+    return sides;
 }
 
 void drop_own_lobes(Scene& scene) {

@@ -58,6 +58,9 @@ struct RenderJob {
 /// scene are reported before it is loaded.
 [[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);
 
+/// The sides that --view asks for, without the margin of --fit. Names are relative to the scene's front.
+[[nodiscard]] std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& options);
+
 /// Takes the materials' own lobes away, so that the settings' lobe counts for all.
 void drop_own_lobes(Scene& scene);
 

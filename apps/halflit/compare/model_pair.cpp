@@ -1,0 +1,111 @@
+#include "apps/halflit/compare/model_pair.hpp"
+
+#include "raster/scene/instance_material.hpp"
+#include "sh/vec3d.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace halflit::cli {
+namespace {
+
+/// Brings a job's scene into another drawn world.
+Result<void> move_into(const Placement& world, RenderJob& job) {
+    const Placement own = job.source.placement;
+    const double factor = world.scale / own.scale;
+    const Vec3d shift = (own.origin - world.origin) * world.scale;
+    if (factor == 1.0 && shift == Vec3d{}) return {};
+    const auto moved = [&](Vec4f& column, Vec3d by) {
+        const Vec3f v = to_float(Vec3d{column.x, column.y, column.z} * factor + by);
+        column = {v.x, v.y, v.z, column.w};
+    };
+    for (Instance& instance : job.scene().instances)
+        for (std::size_t i = 0; i < 4; ++i) moved(instance.world_from_object.c[i], i == 3 ? shift : Vec3d{});
+    const auto times = [](float value, double by) { return static_cast<float>(value * by); };
+    for (Light& light : job.scene().lights) {
+        if (!kind_of(light.type).placed) continue;
+        light.position_ws = to_float(to_double(light.position_ws) * factor + shift);
+        light.range = times(light.range, factor), light.source_radius = times(light.source_radius, factor);
+        light.shadow_radius = times(light.shadow_radius, factor);
+        Vec3f& color = light.color_linear;  // falls with the squared distance
+        color = {times(color.x, factor * factor), times(color.y, factor * factor), times(color.z, factor * factor)};
+    }
+    job.source.placement.origin = world.origin, job.source.placement.scale = world.scale;
+    auto prepared = PreparedScene::make(job.scene(), job.timed_execution());
+    if (!prepared) return tl::unexpected(prepared.error());
+    job.prepared = std::move(*prepared);
+    return {};
+}
+
+/// Positions and triangles of both models, for framing.
+Scene outlines_of(const Scene& a, const Scene& b) {
+    Scene both;
+    for (const Scene* const scene : {&a, &b}) {
+        const auto first = static_cast<int>(both.meshes.size());
+        for (const Mesh& mesh : scene->meshes) {
+            Mesh& outline = both.meshes.emplace_back();
+            outline.positions = mesh.positions, outline.indices = mesh.indices, outline.topology = mesh.topology;
+        }
+        for (const Instance& instance : scene->instances)
+            if (raster::counts_for_views(*scene, instance))
+                both.instances.push_back({.mesh = first + instance.mesh, .world_from_object = instance.world_from_object});
+    }
+    return both;
+}
+
+void warn_of_units(ModelPair& pair) {
+    const double a = pair.a.prepared->bounds().radius(), b = pair.b.prepared->bounds().radius();
+    if (!(a > 0.0 && b > 0.0)) return;
+    const double ratio = b / a;
+    for (const double usual : {1000.0, 100.0, 10.0, 25.4, 39.37007874})
+        for (const double factor : {usual, 1.0 / usual})
+            if (ratio > 0.99 * factor && ratio < 1.01 * factor)
+                pair.warnings.push_back(fmt::format("B is {:.4g} times as large as A: the files may have different units", ratio));
+}
+
+}  // namespace
+
+Result<ModelPair> load_pair(const CompareOptions& options) {
+    CompareOptions flags = options;
+    flags.view.orthographic = !options.fov_given;
+    flags.size = options.size.value_or(kCompareSize);
+    if (flags.film.views.empty()) {
+        const auto usual = parse_views("front,right,top,iso");
+        if (!usual) return tl::unexpected(usual.error());
+        flags.film.views = *usual;
+    }
+    flags.scene = options.a;
+    auto a = make_render_job(flags, kCompareSize);
+    if (!a) return tl::unexpected(a.error());
+    flags.scene = options.b;
+    auto b = make_render_job(flags, kCompareSize);
+    if (!b) return tl::unexpected(b.error());
+    ModelPair pair{std::move(*a), std::move(*b), {}, {}, {}, {}};
+    for (const auto& [name, job] : {std::pair<const char*, const RenderJob*>{"A", &pair.a}, {"B", &pair.b}})
+        for (const std::string& warning : job->warnings) pair.warnings.push_back(fmt::format("{}: {}", name, warning));
+    if (const auto moved = move_into(pair.a.source.placement, pair.b); !moved) return tl::unexpected(moved.error());
+    warn_of_units(pair);
+    pair.bounds = pair.a.prepared->bounds();
+    pair.bounds.include(pair.b.prepared->bounds());
+
+    std::vector<ViewSettings> sides = given_sides(pair.a.scene(), flags);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        sides[i].any_side = false;
+        if (options.fit_px) sides[i].margin_x = 2.0 * *options.fit_px / flags.size->width;
+        if (options.fit_px) sides[i].margin_y = 2.0 * *options.fit_px / flags.size->height;
+        pair.view_names.push_back(flags.film.views[i].name);
+    }
+    const float aspect = static_cast<float>(flags.size->width) / static_cast<float>(flags.size->height);
+    pair.cameras = frame_views(outlines_of(pair.a.scene(), pair.b.scene()), pair.bounds, aspect, sides);
+
+    // The same box and size of points for both.
+    flags.kept_view = kept_view(pair.cameras.front(), pair.bounds, pair.a.settings.point_size, pair.a.source.placement);
+    for (RenderJob* const job : {&pair.a, &pair.b})
+        if (const auto changed = change_job(*job, flags, kCompareSize, false); !changed) return tl::unexpected(changed.error());
+    pair.b.settings.exposure = pair.a.settings.exposure;
+    pair.b.settings.shading.emission_scale = pair.a.settings.shading.emission_scale;
+    return pair;
+}
+
+}  // namespace halflit::cli
