@@ -92,8 +92,8 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
     std::vector<ViewSettings> sides = given_sides(pair.a.scene(), flags);
     for (std::size_t i = 0; i < sides.size(); ++i) {
         sides[i].any_side = false;
-        if (options.fit_px) sides[i].margin_x = 2.0 * *options.fit_px / flags.size->width;
-        if (options.fit_px) sides[i].margin_y = 2.0 * *options.fit_px / flags.size->height;
+        if (options.fit_px) sides[i].margin_x = 2.0 * options.fit_px->width / flags.size->width;
+        if (options.fit_px) sides[i].margin_y = 2.0 * options.fit_px->height / flags.size->height;
         pair.view_names.push_back(flags.film.views[i].name);
     }
     const float aspect = static_cast<float>(flags.size->width) / static_cast<float>(flags.size->height);

@@ -258,9 +258,10 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     if (options.fit_px) {
         const PictureSize size = options.size.value_or(usual);
         const double most = 0.45 * std::min(size.width, size.height);  // ViewSettings::margin_x ends there
-        if (*options.fit_px > most)
+        const int margin = std::max(options.fit_px->width, options.fit_px->height);
+        if (margin > most)
             return fail(ErrorCode::usage, fmt::format("--fit: expected at most {} pixels, 45 % of the picture's shorter side, found {}",
-                                                      static_cast<int>(most), *options.fit_px));
+                                                      static_cast<int>(most), margin));
     }
     if (options.size)
         if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
