@@ -25,9 +25,9 @@ struct Axes {
 };
 
 /// Axes of a viewer on a sphere around the origin. The poles are no special case; beyond them the view is upside down.
-Axes orbit_axes(const ViewSettings& view) {
-    const SinCos az = sin_cos(finite(view.azimuth_deg) ? view.azimuth_deg * (kPi / 180.0) : 0.0);
-    const SinCos el = sin_cos(finite(view.elevation_deg) ? view.elevation_deg * (kPi / 180.0) : 0.0);
+Axes orbit_axes(double azimuth_deg, double elevation_deg) {
+    const SinCos az = sin_cos(finite(azimuth_deg) ? azimuth_deg * (kPi / 180.0) : 0.0);
+    const SinCos el = sin_cos(finite(elevation_deg) ? elevation_deg * (kPi / 180.0) : 0.0);
     return {{az.cos, 0.0, -az.sin}, {-el.sin * az.sin, el.cos, -el.sin * az.cos}, {az.sin * el.cos, el.sin, az.cos * el.cos}};
 }
 
@@ -100,7 +100,7 @@ public:
     ViewFit(Vec3d origin, float aspect, const ViewSettings& view)
         : view_(view),
           origin_(origin),
-          axes_(orbit_axes(view)),
+          axes_(orbit_axes(view.azimuth_deg, view.elevation_deg)),
           tan_y_(half_angle_tangent(usable_fov(static_cast<float>(view.fov_y_deg * (kPi / 180.0))))),
           used_x_(1.0 - usable_margin(view.margin_x)),
           used_y_(1.0 - usable_margin(view.margin_y)),
@@ -314,6 +314,12 @@ Camera fitted(const FramedPoints& points, float aspect, const ViewSettings& view
 }
 
 }  // namespace
+
+Mat4 orbit(Vec3d target, double azimuth_deg, double elevation_deg, double distance) {
+    const FpEnvironment environment_of_host;
+    const Axes axes = orbit_axes(azimuth_deg, elevation_deg);
+    return {{column(axes.right, 0), column(axes.up, 0), column(axes.back, 0), column(target + axes.back * distance, 1)}};
+}
 
 Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view) {
     const FpEnvironment environment_of_host;

@@ -6,6 +6,7 @@
 #include "sh/trig.hpp"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/random.hpp"
 
 #include <cmath>
 #include <limits>
@@ -308,4 +309,33 @@ TEST_CASE("bounds: points that are not finite are left out", "[raster][camera]")
     CHECK(bounds.max == Vec3f{3, 2, 3});
     CHECK(bounds.center() == Vec3f{2, 0, 3});
     CHECK(bounds.radius() == Approx(std::sqrt(5.0)));
+}
+
+TEST_CASE("orbit: away from the poles it is look_at from the same eye", "[camera]") {
+    test::Random random(7);
+    for (int i = 0; i < 500; ++i) {
+        const double azimuth = random.real(-400, 400), elevation = random.real(-85, 85), distance = random.real(0.1, 50);
+        const Vec3d target{random.real(-9, 9), random.real(-9, 9), random.real(-9, 9)};
+        const double a = azimuth * (3.14159265358979323846 / 180), e = elevation * (3.14159265358979323846 / 180);
+        const Vec3d eye{target.x + distance * std::cos(e) * std::sin(a), target.y + distance * std::sin(e),
+                        target.z + distance * std::cos(e) * std::cos(a)};
+        const Mat4 made = orbit(target, azimuth, elevation, distance);
+        const auto narrow = [](Vec3d v) { return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; };
+        const Mat4 looked = look_at(narrow(eye), narrow(target));
+        const auto near = [&](float x, float y, double scale) { return std::abs(x - y) <= 2e-6 * scale; };
+        for (std::size_t c = 0; c < 4; ++c) {
+            // look_at() has points rounded to float: 5e-7 at 9, over the distance.
+            const double scale = c == 3 ? 20 : 1 + 9 / distance;
+            CHECK((near(made.c[c].x, looked.c[c].x, scale) && near(made.c[c].y, looked.c[c].y, scale) &&
+                   near(made.c[c].z, looked.c[c].z, scale)));
+        }
+    }
+}
+
+TEST_CASE("orbit: from straight above, the picture's up is that of the side", "[camera]") {
+    const Mat4 above = orbit({1, 2, 3}, 0, 90, 4);
+    CHECK(std::abs(above.c[1].z + 1) < 1e-6f);  // away from the viewer in front
+    CHECK(std::abs(above.c[3].y - 6) < 1e-6f);
+    const Mat4 right = orbit({1, 2, 3}, 90, 90, 4);
+    CHECK(std::abs(right.c[1].x + 1) < 1e-6f);
 }

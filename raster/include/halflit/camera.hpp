@@ -82,6 +82,10 @@ struct NamedView {
 inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},   {"left", -90, 0},         {"right", 90, 0},
                                             {"top", 0, 90},  {"bottom", 0, -90}, {"iso", 45, 35.26438968f}};
 
+/// Place of a camera (Camera::world_from_camera) at a distance from `target`, which it looks at. The angles are those of ViewSettings. From
+/// straight above or below, the picture's up is that of nearby elevations. Angles that are not finite count as 0.
+[[nodiscard]] HALFLIT_API Mat4 orbit(Vec3d target, double azimuth_deg, double elevation_deg, double distance);
+
 /// Fails (usage) for a camera whose world_from_camera mirrors, or whose sides are not in order: it would show things inside out.
 [[nodiscard]] HALFLIT_API Result<void> check_camera(const Camera& camera);
 
