@@ -1,5 +1,6 @@
 // What the command line asks its system for and a page does not have.
 #include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/render/camera_file.hpp"
 #include "apps/halflit/render/scene_source.hpp"
 
 namespace halflit::cli {
@@ -12,6 +13,11 @@ std::string did_you_mean_file(const std::string& /*path*/, std::vector<std::stri
 
 Result<std::vector<std::byte>> read_standard_input(std::size_t /*max_bytes*/, double /*time_limit_s*/) {
     return fail(ErrorCode::usage, "standard input: a page has none");
+}
+
+Result<void> settle_cameras(RenderOptions& options) {
+    if (options.camera_file.empty()) return {};
+    return fail(ErrorCode::usage, "--camera-file: a page reads no file of cameras");
 }
 
 }  // namespace halflit::cli

@@ -188,6 +188,8 @@ Result<void> check_paths(const PictureOptions& options) {
         if (path == "-" || path.empty()) continue;
         if (!options.scene.empty() && same_file(path, options.scene))
             return fail(ErrorCode::io, path + ": is the scene itself and is not overwritten");
+        if (!options.camera_file.empty() && same_file(path, options.camera_file))
+            return fail(ErrorCode::io, path + ": is the file of cameras itself and is not overwritten");
         if (!options.environment.empty() && same_file(path, options.environment))
             return fail(ErrorCode::io, path + ": is the environment itself and is not overwritten");
     }

@@ -38,6 +38,7 @@ struct Drawn {
     Image* picture = nullptr;
     RenderReport rendered;
     double load_ms = 0, prepare_ms = 0, pose_time_s = 0;
+    Camera camera;
 };
 
 struct Encoded {
@@ -233,6 +234,7 @@ private:
         drawn.prepare_ms = preparing.ms() + (first ? job_->prepare_ms : 0.0);
         drawn.load_ms = first ? job_->load_ms : 0.0;
         drawn.pose_time_s = job_->pose_time_s;
+        drawn.camera = camera;
         drawn.file = file_at(i);
         drawn.picture = &pictures_[drawn_count_ % pictures_.size()];
         const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, job_->settings, target_of(*job_, *drawn.picture),
@@ -269,9 +271,12 @@ private:
         if (!encoded) return tl::unexpected(encoded.error());
         if (options_.report.empty()) return {};
         drawn.file.file_hash = encoded->file_hash;
+        Camera camera = drawn.camera;
         const auto now = std::array{job_->load_ms, job_->prepare_ms, job_->pose_time_s};
         job_->load_ms = drawn.load_ms, job_->prepare_ms = drawn.prepare_ms, job_->pose_time_s = drawn.pose_time_s;
+        std::swap(job_->camera, camera);
         report_ += picture_report(drawn.file, *job_, drawn.rendered, *drawn.picture, encoded->ms, true);
+        std::swap(job_->camera, camera);
         job_->load_ms = now[0], job_->prepare_ms = now[1], job_->pose_time_s = now[2];
         return {};
     }

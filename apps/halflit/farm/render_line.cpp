@@ -1,6 +1,7 @@
 #include "apps/halflit/farm/render_line.hpp"
 
 #include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/render/camera_file.hpp"
 #include "apps/halflit/render/scene_source.hpp"
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/pictures/picture_reader.hpp"
@@ -66,6 +67,8 @@ ReadValue read_path(std::string& path) {
 
 Result<RenderKind> settle_kind(RenderLine& line) {
     std::vector<std::string>& words = line.words;
+    if (line.camera == kAllCameras)
+        if (const auto settled = settle_cameras(line); !settled) return tl::unexpected(settled.error());
     if (!line.folder.empty()) {
         if (!line.output.empty()) return fail(ErrorCode::usage, "--out-dir: cannot be combined with -o");
         line.output = line.folder + "/";

@@ -86,7 +86,7 @@ Result<void> check_film_options(const FilmOptions& options, const std::string& o
         return {};
     }
     if (!options.views.empty() && (options.frames || options.turntable > 0))
-        return fail(ErrorCode::usage, "--view: cannot be combined with --frames or --turntable");
+        return fail(ErrorCode::usage, "--view and --camera all: cannot be combined with --frames or --turntable");
     for (auto view = options.views.begin(); view != options.views.end(); ++view)
         if (std::any_of(options.views.begin(), view, [&](const GivenView& other) { return other.name == view->name; }))
             return fail(ErrorCode::usage, fmt::format("--view: expected each side once, found {} twice", view->name));

@@ -33,7 +33,8 @@ struct FrameRate {
 struct GivenView {
     std::string name;  ///< of kNamedViews, or the two numbers: "30,-20"
     float azimuth_deg = 0, elevation_deg = 0;
-    bool named = false;  ///< relative to the model's front
+    bool named = false;    ///< relative to the model's front
+    bool of_file = false;  ///< a camera of --camera-file; `name` is that of its picture
 };
 
 /// Names of kNamedViews, and pairs of numbers AZIMUTH,ELEVATION, with commas between them.
@@ -51,7 +52,7 @@ struct FilmOptions {
 
     /// Frames are asked for.
     [[nodiscard]] bool wanted() const { return frames || turntable > 0 || several_views(); }
-    [[nodiscard]] bool several_views() const { return views.size() > 1; }
+    [[nodiscard]] bool several_views() const { return views.size() > 1 || (views.size() == 1 && views[0].of_file); }
     /// The animation runs. A turntable shows one pose unless it has a frame rate.
     [[nodiscard]] bool animates() const { return !time_held && frames && (turntable == 0 || fps); }
     /// --frames, one turn, or one for each view.

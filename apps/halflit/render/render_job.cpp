@@ -2,10 +2,13 @@
 
 #include "apps/halflit/program/stopwatch.hpp"
 #include "apps/halflit/program/timeout.hpp"
+#include "apps/halflit/render/camera_file.hpp"
 #include "apps/halflit/render/film_view.hpp"
 #include "apps/halflit/render/part_flags.hpp"
+#include "apps/halflit/render/scene_view.hpp"
 #include "apps/halflit/render/section_flags.hpp"
 #include "apps/io/files/errno_text.hpp"
+#include "apps/io/files/text.hpp"
 #include "halflit/auto_setup.hpp"
 #include "halflit/camera.hpp"
 #include "halflit/image.hpp"
@@ -18,6 +21,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 
 #include <sys/resource.h>
@@ -40,6 +44,13 @@ Result<void> check_size(PictureSize size, const Region& region) {
 /// replaces: the file has a camera that shows the scene small or not at all.
 std::string camera_choice(const Camera* of_file, const RenderOptions& options, bool replaces) {
     if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
+    if (options.cameras) {
+        const CameraFile& file = *options.cameras;
+        const bool all = options.camera == kAllCameras;
+        const std::string& name = all ? "" : file.cameras[find_camera(file, options.camera.value_or("")).value_or(0)].name;
+        return "camera: " + (all ? "all" : name.empty() ? "one" : io::printable(name)) + " of " + file.path;
+    }
+    if (options.camera_orbit) return "camera: in the orbit " + options.camera_orbit->text;
     if (options.camera_position)
         return fmt::format("camera: at {},{},{}", options.camera_position->x, options.camera_position->y, options.camera_position->z);
     if (!options.film.views.empty())
@@ -135,23 +146,76 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     return {};
 }
 
+/// The cameras of --camera-file that are drawn: one, or all. The picture has the size of the first, unless --size says another.
+Result<void> use_given_cameras(RenderJob& job, const RenderOptions& options, PictureRequest& request) {
+    const CameraFile& file = *options.cameras;
+    const auto place = [&](const GivenCamera& camera) { return placed(camera, job.source.placement, job.film.bounds); };
+    std::size_t first = 0;
+    if (options.camera != kAllCameras) {
+        const auto found = find_camera(file, options.camera.value_or(""));
+        if (!found) return tl::unexpected(found.error());
+        first = *found;
+    } else {
+        for (const GivenCamera& camera : file.cameras) {
+            const bool same = camera.size.has_value() == file.cameras[0].size.has_value() &&
+                              (!camera.size ||
+                               (camera.size->width == file.cameras[0].size->width && camera.size->height == file.cameras[0].size->height));
+            if (!same && !options.size)
+                return fail(ErrorCode::usage, file.path + ": its cameras have pictures of different sizes; --size sets one");
+            job.film.views.push_back(place(camera));
+        }
+    }
+    request.camera = place(file.cameras[first]);
+    if (!request.size) request.size = file.cameras[first].size;
+    return {};
+}
+
+/// The camera of --camera-orbit. Its distance may be a share of the one that shows all sides of the scene.
+Camera orbit_camera(const RenderJob& job, const RenderOptions& options, float aspect) {
+    const CameraOrbit& given = *options.camera_orbit;
+    ViewSettings side = options.view;
+    side.azimuth_deg = 0, side.elevation_deg = 0, side.any_side = true;
+    ViewSettings opposite = side;
+    opposite.azimuth_deg = 180;
+    const std::vector<Camera> both = frame_views(job.scene(), job.film.bounds, aspect, std::array{side, opposite});
+    const auto eye = [&](std::size_t i) {
+        const Vec4f& at = both[i].world_from_camera.c[3];
+        return Vec3d{at.x, at.y, at.z};
+    };
+    const Vec3d centre = (eye(0) + eye(1)) * 0.5;
+    const double distance = given.share ? *given.share * 0.5 * length(eye(0) - eye(1)) : given.distance * job.source.placement.scale;
+    const Vec3d target = options.camera_target.value_or(centre);
+    return placed_camera(orbit(target, given.theta_deg, 90.0 - given.phi_deg, std::min(distance, 1e36)), options.view.fov_y_deg,
+                         job.film.bounds);
+}
+
 /// The view that the flags ask for. usual: the size without --size.
-PictureRequest request_of(RenderJob& job, const RenderOptions& options, PictureSize usual) {
+Result<PictureRequest> request_of(RenderJob& job, const RenderOptions& options, PictureSize usual) {
     PictureRequest request;
     request.size = options.size;
     request.usual_size = usual;
-    job.film.framed = options.kept_view || !options.film.views.empty();
-    if (options.kept_view) {
+    job.film.views.clear();
+    job.film.framed = !options.cameras && (options.kept_view || !options.film.views.empty());
+    if (options.kept_view && !options.cameras) {
         request.camera = camera_of(*options.kept_view, job.source.placement, job.prepared->bounds());
         job.film.bounds = bounds_of(*options.kept_view, job.source.placement);
         return request;
     }
     const Bounds& bounds = job.film.bounds;
+    if (options.cameras) {
+        if (const auto used = use_given_cameras(job, options, request); !used) return tl::unexpected(used.error());
+        return request;
+    }
     if (!options.film.views.empty()) {
         const PictureSize size = options.size.value_or(usual);
         job.film.views = frame_views(job.scene(), bounds, static_cast<float>(size.width) / static_cast<float>(size.height),
                                      given_sides(job.scene(), options));
         request.camera = job.film.views.front();
+        return request;
+    }
+    if (options.camera_orbit) {
+        const PictureSize size = options.size.value_or(usual);
+        request.camera = orbit_camera(job, options, static_cast<float>(size.width) / static_cast<float>(size.height));
         return request;
     }
     if (options.camera_position) {
@@ -245,12 +309,17 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
     return {};
 }
 
-Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
-    if (options.camera_position && (options.camera || options.whole_scene))
-        return fail(ErrorCode::usage,
-                    "--camera-position: cannot be combined with --camera, --view, --fit, --azimuth, --elevation or --zoom");
-    if (options.camera_target && !options.camera_position)
-        return fail(ErrorCode::usage, "--camera-target: expected together with --camera-position");
+Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
+    RenderOptions options = flags;
+    if (const auto settled = settle_cameras(options); !settled) return tl::unexpected(settled.error());
+    const bool placed_by_flags = options.camera_position || options.camera_orbit;
+    if (placed_by_flags && (options.camera || options.whole_scene || (options.camera_position && options.camera_orbit)))
+        return fail(
+            ErrorCode::usage,
+            fmt::format("{}: cannot be combined with {}--camera, --view, --fit, --ortho, --azimuth, --elevation or --zoom",
+                        options.camera_orbit ? "--camera-orbit" : "--camera-position", options.camera_orbit ? "--camera-position, " : ""));
+    if (options.camera_target && !placed_by_flags)
+        return fail(ErrorCode::usage, "--camera-target: expected together with --camera-position or --camera-orbit");
     if (options.camera && options.own_view())
         return fail(
             ErrorCode::usage,
@@ -286,6 +355,7 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     job.load_ms = loading.ms();
     job.source = std::move(*source);
     job.warnings = job.source.warnings;
+    if (options.cameras) job.warnings.insert(job.warnings.end(), options.cameras->warnings.begin(), options.cameras->warnings.end());
     job.pose_time_s = options.load.time_s;
     if (const AnimationInfo* const animation = job.animation())
         job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
@@ -318,7 +388,9 @@ Result<RenderJob> make_job(const RenderOptions& options, PictureSize usual) {
     const RenderOptions placed = in_drawn_world(options, job.source, usual);
     job.settings.shadow_fade = placed.settings.shadow_fade;
     if (const auto begun = begin_light(job, placed); !begun) return tl::unexpected(begun.error());
-    if (const auto chosen = choose(job, placed, request_of(job, placed, usual)); !chosen) return tl::unexpected(chosen.error());
+    auto request = request_of(job, placed, usual);
+    if (!request) return tl::unexpected(request.error());
+    if (const auto chosen = choose(job, placed, std::move(*request)); !chosen) return tl::unexpected(chosen.error());
     tell_choices(job, options);
     return job;
 }
@@ -382,13 +454,17 @@ Result<void> change_light(RenderJob& job, const RenderOptions& options) {
     return chosen;
 }
 
-Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSize usual, bool same_light) {
+Result<void> change_job(RenderJob& job, const RenderOptions& flags, PictureSize usual, bool same_light) {
+    RenderOptions options = flags;
+    if (const auto settled = settle_cameras(options); !settled) return settled;
     if (const auto chosen = choose_settings(job.settings, options); !chosen) return chosen;
     const RenderOptions placed = in_drawn_world(options, job.source, usual);
     job.settings.shadow_fade = placed.settings.shadow_fade;
     if (!same_light)
         if (const auto begun = begin_light(job, placed); !begun) return begun;
-    if (const auto chosen = choose(job, placed, request_of(job, placed, usual)); !chosen) return chosen;
+    auto request = request_of(job, placed, usual);
+    if (!request) return tl::unexpected(request.error());
+    if (const auto chosen = choose(job, placed, std::move(*request)); !chosen) return chosen;
     job.choices.clear();
     tell_choices(job, options);
     return {};

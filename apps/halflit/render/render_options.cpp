@@ -103,7 +103,9 @@ std::string plain_axis(std::string text) {
 FlagGroup camera_flags(RenderOptions& o) {
     return {
         "Camera (default: the file's first camera, or a view of the whole scene)",
-        {{"--camera", "INDEX|NAME|frame", "A camera of the file (default: the first); frame: a view of the whole scene",
+        {{"--camera", "INDEX|NAME|frame|all",
+          "A camera of the file (default: the first); frame: a view of the whole scene; all: a picture by each camera of --camera-file, as "
+          "-o '{view}.png'",
           [&o](const std::string& text) { return read_camera(o, text); }},
          view_flag(o.whole_scene, "--azimuth", "DEG", "View the whole scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg,
                    -3600, 3600),
@@ -135,8 +137,19 @@ FlagGroup camera_flags(RenderOptions& o) {
               return {};
           }},
          {"--camera-position", "X,Y,Z", "Place the camera here", parsed(o.camera_position, parse_point)},
+         {"--camera-orbit", "THETA PHI RADIUS",
+          "Place the camera around its target, as <model-viewer> does: degrees (or rad) about the vertical from +z, degrees from straight "
+          "above, and a distance in the file's unit (or cm, mm: hundredths and thousandths of it), in % of the one that shows all sides, "
+          "or "
+          "auto for that one",
+          parsed(o.camera_orbit, parse_camera_orbit)},
          {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
           parsed(o.camera_target, parse_point)},
+         {"--camera-file", "FILE",
+          "Cameras in place of the model's: JSON as a report's `camera`, transforms.json of NeRF, COLMAP's images.txt, or a glTF file. "
+          "They "
+          "are in the coordinates and along the axes of the model's file",
+          read_text(o.camera_file)},
          {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
          {"--up", form_of(kUpAxisNames),
           fmt::format("Axis of the model that points up (default {}, and z for STL and 3MF). The scene is turned so that it becomes y; the "

@@ -3,9 +3,11 @@
 
 #include "apps/halflit/flags/flags.hpp"
 #include "apps/halflit/flags/values.hpp"
+#include "apps/halflit/render/camera_orbit.hpp"
 #include "apps/halflit/render/classic_material.hpp"
 #include "apps/halflit/render/film_options.hpp"
 #include "apps/halflit/render/kept_view.hpp"
+#include "apps/halflit/render/given_camera.hpp"
 #include "apps/halflit/render/scene_view.hpp"
 #include "apps/io/files/lobe_name.hpp"
 #include "halflit/auto_setup.hpp"
@@ -14,6 +16,7 @@
 #include "halflit/light.hpp"
 #include "halflit/settings.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +41,10 @@ struct RenderOptions {
     std::vector<std::string_view> given_settings{};  ///< names of settings whose flags were given
     Execution execution;
 
-    std::optional<std::string> camera;  ///< a camera of the file: its index or name
+    std::optional<std::string> camera;            ///< a camera of the file, or of camera_file: its index or name, or kAllCameras
+    std::string camera_file;                      ///< empty: the model's own cameras
+    std::shared_ptr<const CameraFile> cameras{};  ///< of camera_file, once it is read
+    std::optional<CameraOrbit> camera_orbit{};
     ViewSettings view;
     std::optional<PictureSize> fit_px;                    ///< --fit: margins of a view that is as near as its side allows
     bool whole_scene = false;                             ///< --camera frame, --azimuth, --elevation, --zoom, --fit or --view was given
@@ -52,7 +58,7 @@ struct RenderOptions {
     bool ground = false;                                  ///< add a ground that only takes shadow
 
     /// A camera of the flags, not of the file.
-    [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position; }
+    [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position || camera_orbit; }
     /// Some parts are drawn alone, and no camera of the file is named: the view is of these parts.
     [[nodiscard]] bool views_parts() const { return !parts.only.empty() && !camera; }
 
@@ -82,6 +88,9 @@ struct RenderOptions {
     }
     std::size_t max_memory_bytes = 0;  ///< of the process; 0: no limit
 };
+
+/// --camera, for a picture by each camera of --camera-file.
+inline constexpr const char* kAllCameras = "all";
 
 /// The lobe that the flags choose for materials without one of their own; empty if they choose none.
 [[nodiscard]] Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& options);

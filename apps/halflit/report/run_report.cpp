@@ -3,6 +3,7 @@
 #include "apps/halflit/flags/plan_names.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/render/section_flags.hpp"
+#include "apps/halflit/report/camera_json.hpp"
 #include "apps/io/files/text.hpp"
 #include "halflit/version.hpp"
 #include "sh/time_limit.hpp"
@@ -75,6 +76,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
     report["size"] = {job.width, job.height};
     report["region"] = region_json(job.settings.region);
     report["pixel_hash"] = fmt::format("{:016x}", pixel_hash(picture.rgba8));
+    report["camera"] = camera_json(job, job.camera, {job.width, job.height});
     report["isa"] = isa_name(rendered.isa);
     report["threads"] = rendered.threads;
     report["samples"] = job.settings.samples;
