@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 using namespace halflit;
 using namespace halflit::c;
@@ -18,6 +20,27 @@ halflit_camera nameless(const Camera& from) {
     halflit_camera camera = to_c(from);
     camera.name = nullptr;
     return camera;
+}
+
+Result<void> check_aspect(float aspect) {
+    if (aspect > 0.0f && aspect < 1e6f) return {};
+    return fail(ErrorCode::usage, "aspect is not a positive number");
+}
+
+/// Views of an array, whose structs have the size of the first.
+Result<std::vector<ViewSettings>> views_of(const halflit_view* first, std::int32_t count) {
+    constexpr std::int32_t kMostViews = 65536;
+    if (count < 1 || count > kMostViews)
+        return fail(ErrorCode::usage, "count is " + std::to_string(count) + ", expected 1 to " + std::to_string(kMostViews));
+    std::vector<ViewSettings> views;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const halflit_view* const one = at(first, i);
+        if (one->size != first->size) return fail(ErrorCode::usage, "halflit_view: the members size of views[] differ");
+        const auto read = view(one);
+        if (!read) return tl::unexpected<Error>(read.error());
+        views.push_back(*read);
+    }
+    return views;
 }
 
 }  // namespace
@@ -66,6 +89,69 @@ int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azi
         view.elevation_deg = elevation_deg;
         view.zoom = zoom;
         return write_struct(nameless(scene->told(frame_scene(scene->scene, aspect, view))), to, "halflit_camera");
+    });
+}
+
+int32_t halflit_view_init(halflit_view* view, size_t size) {
+    return guarded(__func__, {{view, "view"}}, [&] { return write_struct(default_view(), size, view, "halflit_view"); });
+}
+
+int32_t halflit_view_by_name(const halflit_scene* scene, const char* name, halflit_view* to) {
+    return reading(__func__, scene, {{name, "name"}, {to, "view"}}, [&]() -> Result<void> {
+        auto given = read_struct(to, default_view(), "halflit_view");
+        if (!given) return tl::unexpected<Error>(given.error());
+        std::string names;
+        for (const NamedView& named : kNamedViews) {
+            if (named.name == name) {
+                given->azimuth_deg = named.azimuth_deg + (scene->scene.faces_back ? 180.0f : 0.0f);
+                given->elevation_deg = named.elevation_deg;
+                return write_struct(*given, to, "halflit_view");
+            }
+            names += (names.empty() ? "" : ", ") + std::string(named.name);
+        }
+        return fail(ErrorCode::usage, "view: expected one of " + names + ", found '" + std::string(name) + "'");
+    });
+}
+
+int32_t halflit_camera_view(const halflit_scene* scene, float aspect, const halflit_view* given, halflit_camera* to) {
+    return reading(__func__, scene, {{given, "view"}, {to, "camera"}}, [&]() -> Result<void> {
+        if (auto ok = check_aspect(aspect); !ok) return ok;
+        const auto side = view(given);
+        if (!side) return tl::unexpected<Error>(side.error());
+        return write_struct(nameless(scene->told(frame_scene(scene->scene, aspect, *side))), to, "halflit_camera");
+    });
+}
+
+int32_t halflit_camera_views(const halflit_scene* scene, float aspect, const halflit_view* given, int32_t count, halflit_camera* to) {
+    return reading(__func__, scene, {{given, "views"}, {to, "cameras"}}, [&]() -> Result<void> {
+        if (auto ok = check_aspect(aspect); !ok) return ok;
+        const auto sides = views_of(given, count);
+        if (!sides) return tl::unexpected<Error>(sides.error());
+        if (auto ok = check_size(to->size, sizeof(halflit_camera), "halflit_camera"); !ok) return ok;
+        for (std::int32_t i = 0; i < count; ++i)
+            if (at(to, i)->size != to->size) return fail(ErrorCode::usage, "halflit_camera: the members size of cameras[] differ");
+        const std::vector<Camera> cameras = frame_views(scene->scene, scene_bounds(scene->scene), aspect, *sides);
+        for (std::int32_t i = 0; i < count; ++i)
+            (void)write_struct(nameless(scene->told(cameras[static_cast<std::size_t>(i)])), at(to, i), "halflit_camera");
+        return {};
+    });
+}
+
+int32_t halflit_camera_orbit(const double target[3], double azimuth_deg, double elevation_deg, double distance, int32_t up,
+                             halflit_camera* to) {
+    return guarded(__func__, {{target, "target"}, {to, "camera"}}, [&]() -> Result<void> {
+        auto made = camera(to);
+        if (!made) return tl::unexpected<Error>(made.error());
+        Members members("halflit_camera_orbit");
+        for (int i = 0; i < 3; ++i) members.finite("target", target[i]);
+        members.finite("azimuth_deg, elevation_deg or distance", azimuth_deg, elevation_deg, distance);
+        if (!(distance > 0.0)) members.wrong("distance", "is not above 0");
+        if (up < HALFLIT_UP_X || up > HALFLIT_UP_MINUS_Z) members.wrong("up", "is " + std::to_string(up) + ", expected 1 to 6");
+        if (!members.result()) return members.result();
+        const auto axis = static_cast<UpAxis>(up - 1);
+        const Vec3d upright = turned_upright(Vec3d{target[0], target[1], target[2]}, axis);
+        made->world_from_camera = turned_back(orbit(upright, azimuth_deg, elevation_deg, distance), axis);
+        return write_struct(nameless(*made), to, "halflit_camera");
     });
 }
 

@@ -30,6 +30,7 @@ void put(const Mat4& m, float to[16]);
 [[nodiscard]] Result<Light> light(const halflit_light* given);
 [[nodiscard]] Result<Camera> camera(const halflit_camera* given);
 [[nodiscard]] Result<Settings> settings(const halflit_settings* given);
+[[nodiscard]] Result<ViewSettings> view(const halflit_view* given);
 [[nodiscard]] Result<PictureRequest> picture_request(const halflit_picture_request* given);
 [[nodiscard]] Result<Instance> instance(const halflit_instance* given);
 [[nodiscard]] Result<Execution> execution(const halflit_execution* given);
@@ -68,6 +69,7 @@ struct EnvironmentRequest {
 [[nodiscard]] halflit_settings to_c(const Settings& from);
 [[nodiscard]] halflit_report to_c(const RenderReport& from);
 [[nodiscard]] halflit_environment_options default_environment_options();
+[[nodiscard]] halflit_view default_view();
 [[nodiscard]] halflit_picture_request default_picture_request();
 [[nodiscard]] halflit_instance to_c(const Instance& from);
 [[nodiscard]] halflit_execution default_execution();

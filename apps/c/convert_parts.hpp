@@ -35,6 +35,15 @@ public:
     void elevation(float degrees) {
         if (!(degrees >= -90.0f && degrees <= 90.0f)) wrong("elevation_deg", "is not from -90 to 90");
     }
+    /// Requires what halflit_view and halflit_picture_request say of a view to be in range.
+    template <class Struct>
+    void view(const Struct& read) {
+        elevation(read.elevation_deg);
+        positive("zoom", read.zoom, 1000000000);
+        positive("fov_y_deg", read.fov_y_deg, 180);
+        for (const double margin : {read.margin_x, read.margin_y})
+            if (!(margin >= 0.0 && margin <= 0.9)) wrong("margin_x or margin_y", "is not from 0 to 0.9");
+    }
     void wrong(const char* member, const std::string& what) {
         if (result_) result_ = fail(ErrorCode::usage, std::string(of_) + ": " + member + " " + what);
     }

@@ -25,7 +25,8 @@ HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);
-HALFLIT_ENDS_WITH(halflit_picture_request, reserved);
+HALFLIT_ENDS_WITH(halflit_picture_request, margin_y);
+HALFLIT_ENDS_WITH(halflit_view, any_side);
 HALFLIT_ENDS_WITH(halflit_execution, memory_limit);
 HALFLIT_ENDS_WITH(halflit_target, uv_row_bytes);
 HALFLIT_ENDS_WITH(halflit_report, reserved);
@@ -97,6 +98,7 @@ halflit_settings to_c(const Settings& from) {
     settings.size = sizeof settings;
     settings.region = {from.region.x, from.region.y, from.region.width, from.region.height};
     put(from.background_linear, settings.background);
+    put(from.edge_color_linear, settings.edge_color);
     settings.background_environment = from.background_environment;
     settings.override_lobe = from.shading.lobe.has_value();
     settings.lobe = to_c(from.shading.lobe.value_or(Lobe{}));
@@ -113,10 +115,13 @@ Result<Settings> settings(const halflit_settings* given) {
     if (!read) return tl::unexpected<Error>(read.error());
     settings.region = {read->region.x, read->region.y, read->region.width, read->region.height};
     settings.background_linear = vec4(read->background);
+    settings.edge_color_linear = vec3(read->edge_color);
     settings.background_environment = read->background_environment != 0;
     if (read->override_lobe != 0) settings.shading.lobe = lobe(read->lobe);
     Members members("halflit_settings");
     members.finite("background", read->background);
+    for (const float channel : read->edge_color)
+        if (!(channel >= 0.0f && channel <= 1.0f)) members.wrong("edge_color", "is not from 0 to 1");
     const double values[] = {
 #define HALFLIT_SETTING(place, name, ...) static_cast<double>(read->name),
 #include "raster/settings_table.def"
@@ -136,6 +141,43 @@ Result<Settings> settings(const halflit_settings* given) {
     return settings;
 }
 
+namespace {
+
+/// What halflit_view and halflit_picture_request say of a view.
+template <class Struct>
+ViewSettings view_settings(const Struct& from) {
+    return {.azimuth_deg = from.azimuth_deg,
+            .elevation_deg = from.elevation_deg,
+            .zoom = from.zoom,
+            .fov_y_deg = from.fov_y_deg,
+            .orthographic = from.orthographic != 0,
+            .any_side = from.any_side != 0,
+            .margin_x = from.margin_x,
+            .margin_y = from.margin_y};
+}
+
+}  // namespace
+
+halflit_view default_view() {
+    const ViewSettings defaults;
+    halflit_view view{};
+    view.size = sizeof view;
+    view.margin_x = defaults.margin_x, view.margin_y = defaults.margin_y;
+    view.azimuth_deg = defaults.azimuth_deg, view.elevation_deg = defaults.elevation_deg;
+    view.zoom = defaults.zoom, view.fov_y_deg = defaults.fov_y_deg;
+    return view;
+}
+
+Result<ViewSettings> view(const halflit_view* given) {
+    const auto read = read_struct(given, default_view(), "halflit_view");
+    if (!read) return tl::unexpected<Error>(read.error());
+    Members members("halflit_view");
+    members.finite("azimuth_deg", read->azimuth_deg);
+    members.view(*read);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
+    return view_settings(*read);
+}
+
 halflit_picture_request default_picture_request() {
     const PictureRequest defaults;
     halflit_picture_request options{};
@@ -145,6 +187,9 @@ halflit_picture_request default_picture_request() {
     options.zoom = defaults.view.zoom;
     options.fov_y_deg = defaults.view.fov_y_deg;
     options.orthographic = defaults.view.orthographic;
+    options.any_side = defaults.view.any_side;
+    options.margin_x = defaults.view.margin_x;
+    options.margin_y = defaults.view.margin_y;
     options.add_lights = defaults.add_lights;
     return options;
 }
@@ -167,7 +212,7 @@ Result<PictureRequest> picture_request(const halflit_picture_request* given) {
         options.size = PictureSize{read->width, read->height};
     }
     options.frame = read->frame != 0;
-    options.view = {read->azimuth_deg, read->elevation_deg, read->zoom, read->fov_y_deg, read->orthographic != 0};
+    options.view = view_settings(*read);
     if (read->own_ambient != 0) options.ambient_linear = vec3(read->ambient_color);
     if (read->exposure > 0.0f) options.exposure = read->exposure;
     options.add_lights = read->add_lights != 0;
@@ -175,10 +220,8 @@ Result<PictureRequest> picture_request(const halflit_picture_request* given) {
     Members members("halflit_picture_request");
     members.read(read->studio, StudioUse::under_lights, "studio", options.studio);
     members.finite("azimuth_deg or studio_turn_rad", read->azimuth_deg, read->studio_turn_rad);
-    members.elevation(read->elevation_deg);
+    members.view(*read);
     members.finite("ambient_color", read->ambient_color);
-    members.positive("zoom", read->zoom, 1000000000);
-    members.positive("fov_y_deg", read->fov_y_deg, 180);
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
     return options;
 }

@@ -23,6 +23,9 @@ PYTHON_TABLE = "apps/python/halflit/_options.py"
 ENUMERATIONS = {"kAccuracyNames": "ACCURACY", "kRateNames": "RATE", "kTextureDetailNames": "DETAIL", "kSpecularNames": "SPECULAR",
                 "kShadowModeNames": "SHADOWS", "kToneCurveNames": "TONE", "kEdgeChoiceNames": "EDGES",
                 "kHiddenEdgeNames": "HIDDEN_EDGES"}
+# Setting -> members behind it that no row of the table has.
+BY_HAND = {"edge_width": ["    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)",
+                          "    float edge_color[3];"]}
 UNLIMITED = ("kMostScale", "kMostNumber")
 
 
@@ -136,6 +139,8 @@ def c_settings(wide):
         default = {"true": "1", "false": "0"}.get(default, default.replace("_", "-") if enumeration else default)
         lines += commented(f"{of}{doc} ({default})", 4)
         lines.append(f"    {kind} {name};")
+        if name in BY_HAND:
+            lines += BY_HAND[name]
     return "\n".join(lines) + "\n"
 
 
@@ -178,7 +183,8 @@ def made():
     header = between(header, "    // Settings of eight bytes: written by apps/c/members.py.", "    halflit_region region;", c_settings(True))
     narrow = c_settings(False)
     fixed = 13  # four-byte words between the settings of eight and those of four bytes
-    spare = 1 + (fixed + narrow.count(";\n") + 1) % 2  # no padding, and always one that a later setting may take
+    words = sum(int(count or 1) for count in re.findall(r" \w+(?:\[(\d+)\])?;$", narrow, re.M))
+    spare = 1 + (fixed + words + 1) % 2  # no padding, and always one that a later setting may take
     narrow += f"    int32_t reserved[{spare}];  ///< 0\n"
     header = between(header, "    // Settings of four bytes: written by apps/c/members.py.", "} halflit_settings;", narrow)
     python = between(text_of(PYTHON), "        shadow_catcher: invisible but for the shadows on it (False)", '    """', python_docs())

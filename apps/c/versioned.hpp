@@ -59,6 +59,13 @@ template <class T>
     return {};
 }
 
+/// A struct of the caller's array, whose structs have the size that the first one says. Requires: a size that check_size() lets pass.
+template <class T>
+[[nodiscard]] T* at(T* first, std::int32_t i) {
+    using Byte = std::conditional_t<std::is_const_v<T>, const unsigned char, unsigned char>;
+    return reinterpret_cast<T*>(reinterpret_cast<Byte*>(first) + static_cast<std::size_t>(i) * first->size);
+}
+
 /// Fills the caller's struct, whose size is set.
 template <class T>
 [[nodiscard]] Result<void> write_struct(const T& value, T* to, const char* name) {

@@ -954,6 +954,68 @@ static void test_cameras(void) {
     free_cube(&cube);
 }
 
+static void test_views(void) {
+    static const char* const names[] = {"front", "right", "top"};
+    Cube cube = make_cube();
+    halflit_view views[3], one;
+    halflit_camera cameras[3], camera, last = {0};
+    halflit_picture_request request;
+    const double target[3] = {1, 2, 3};
+    int32_t size[2];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        CHECK_OK(halflit_view_init(&views[i], sizeof views[i]));
+        CHECK(views[i].azimuth_deg == 35 && views[i].elevation_deg == 20 && views[i].zoom == 1 && views[i].margin_x == 0.08);
+        CHECK_OK(halflit_view_by_name(cube.scene, names[i], &views[i]));
+        views[i].orthographic = 1;
+        CHECK_OK(halflit_camera_init(&cameras[i], sizeof cameras[i]));
+    }
+    CHECK(views[1].azimuth_deg == 90 && views[1].elevation_deg == 0 && views[2].elevation_deg == 90);
+    CHECK_OK(halflit_camera_views(cube.scene, 1, views, 3, cameras));
+    for (i = 0; i < 3; ++i) CHECK(cameras[i].orthographic == 1 && cameras[i].half_height == cameras[0].half_height);
+    CHECK(cameras[0].world_from_camera[10] == 1 && cameras[1].world_from_camera[8] == 1 && cameras[2].world_from_camera[9] == 1);
+    // One view alone, and the same by a request.
+    CHECK_OK(halflit_camera_init(&camera, sizeof camera));
+    one = views[0];
+    one.any_side = 1, one.margin_x = one.margin_y = 0.5;
+    CHECK_OK(halflit_camera_view(cube.scene, 1, &one, &camera));
+    CHECK(camera.half_height > 2 * cameras[0].half_height);  // the ball around the cube, with a wider margin
+    CHECK_OK(halflit_picture_request_init(&request, sizeof request));
+    CHECK_OK(halflit_camera_init(&last, sizeof last));
+    request.width = request.height = 64;
+    request.frame = request.orthographic = request.any_side = 1;
+    request.azimuth_deg = request.elevation_deg = 0;
+    request.margin_x = request.margin_y = 0.5;
+    CHECK_OK(halflit_choose_picture(cube.scene, &request, size, &last, &cube.settings, NULL));
+    CHECK(memcmp(last.world_from_camera, camera.world_from_camera, sizeof camera.world_from_camera) == 0 &&
+          last.half_height == camera.half_height);
+    request.margin_x = 0.95;
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &request, size, &last, &cube.settings, NULL), HALFLIT_ERROR_USAGE, "margin_x");
+    // The eye of an orbit is on the axis through the target.
+    CHECK_OK(halflit_camera_orbit(target, 90, 0, 4, HALFLIT_UP_Y, &camera));
+    CHECK(fabs(camera.world_from_camera[12] - 5) < 1e-5 && fabs(camera.world_from_camera[13] - 2) < 1e-5 &&
+          fabs(camera.world_from_camera[14] - 3) < 1e-5);
+    CHECK_OK(halflit_camera_orbit(target, 0, 90, 4, HALFLIT_UP_Z, &camera));
+    CHECK(fabs(camera.world_from_camera[14] - 7) < 1e-5 && fabs(camera.world_from_camera[10] - 1) < 1e-6);
+    // Faulty arguments.
+    CHECK_FAILS(halflit_view_by_name(cube.scene, "side", &one), HALFLIT_ERROR_USAGE, "expected one of front, back");
+    CHECK_FAILS(halflit_camera_views(cube.scene, 1, views, 0, cameras), HALFLIT_ERROR_USAGE, "count is 0");
+    CHECK_FAILS(halflit_camera_views(cube.scene, NAN, views, 1, cameras), HALFLIT_ERROR_USAGE, "aspect");
+    views[1].elevation_deg = 91;
+    CHECK_FAILS(halflit_camera_views(cube.scene, 1, views, 3, cameras), HALFLIT_ERROR_USAGE, "elevation_deg");
+    views[1].size -= 8;
+    CHECK_FAILS(halflit_camera_views(cube.scene, 1, views, 3, cameras), HALFLIT_ERROR_USAGE, "differ");
+    one.margin_y = NAN;
+    CHECK_FAILS(halflit_camera_view(cube.scene, 1, &one, &camera), HALFLIT_ERROR_USAGE, "margin");
+    CHECK_FAILS(halflit_camera_orbit(target, 0, 0, 0, HALFLIT_UP_Y, &camera), HALFLIT_ERROR_USAGE, "distance");
+    CHECK_FAILS(halflit_camera_orbit(target, NAN, 0, 1, HALFLIT_UP_Y, &camera), HALFLIT_ERROR_USAGE, "azimuth_deg");
+    CHECK_FAILS(halflit_camera_orbit(target, 0, 0, 1, HALFLIT_UP_BY_FORMAT, &camera), HALFLIT_ERROR_USAGE, "up is 0");
+    cube.settings.edge_color[1] = 2;
+    CHECK(draw_cube(NULL, &cube) == 0);
+    CHECK(strstr(halflit_last_error(), "edge_color is not from 0 to 1") != NULL);
+    free_cube(&cube);
+}
+
 // ---- execution ---------------------------------------------------------------------------------------------------------
 
 typedef struct {
@@ -1482,6 +1544,7 @@ int main(void) {
         test_parts_of_a_file();
     }
     test_cameras();
+    test_views();
     test_looks_of_instances();
     test_removal();
     test_up();

@@ -134,6 +134,20 @@ Sized<halflit_camera> Session::camera() {
     if (in_.one_in(3)) {
         const auto eye = floats<3>(), target = floats<3>(), up = floats<3>();
         check(halflit_camera_look_at(or_null(eye.data()), or_null(target.data()), or_null(up.data(), 2), or_null(camera.get())));
+    } else if (in_.one_in(4)) {
+        const double target[3] = {in_.real(), in_.real(), in_.real()};
+        check(halflit_camera_orbit(or_null(target), in_.real() * 90.0, in_.real() * 45.0, in_.real(),
+                                   static_cast<std::int32_t>(in_.below(8)), or_null(camera.get())));
+    } else if (in_.one_in(4)) {
+        Sized<halflit_view> view(in_);
+        check(halflit_view_init(view.get(), view.size()));
+        if (in_.flag()) check(halflit_view_by_name(scene(), or_null(in_.flag() ? "iso" : "side"), or_null(view.get())));
+        if (in_.one_in(3)) view.damage(in_, offsetof(halflit_view, margin_x));
+        if (in_.flag())
+            check(halflit_camera_view(scene(), in_.real(), or_null(view.get()), or_null(camera.get())));
+        else
+            check(halflit_camera_views(scene(), in_.real(), or_null(view.get()), static_cast<std::int32_t>(in_.below(2)),
+                                       or_null(camera.get())));
     } else {
         check(halflit_camera_frame(scene(), in_.real(), in_.real() * 45.0f, in_.real() * 20.0f, in_.real(), or_null(camera.get())));
     }

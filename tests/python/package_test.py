@@ -56,7 +56,7 @@ class Header(unittest.TestCase):
         self.assertEqual(_c.make("environment_options").keep_image, 1)
 
     def test_keywords_are_typed(self):
-        members = {member for member, _ in _options.SETTINGS.values()} | {"background", "lobe"}
+        members = {member for member, _ in _options.SETTINGS.values()} | {"background", "edge_color", "lobe"}
         chosen = {"size", "reserved", "region", "exposure", "override_lobe", "background_environment"}
         self.assertEqual(members, {name for name, _ in _c.STRUCT["halflit_settings"]._fields_} - chosen)
         for kind in (halflit.Material, halflit.Light, halflit.Camera, halflit.Lobe, halflit.TextureUse):

@@ -10,15 +10,15 @@ from ._errors import UsageError
 from ._lazy import np
 from ._record import Record
 from ._types import Point
-from ._values import reals, shown
+from ._values import real, reals, shown, up_axis
 
 
 class Camera(Record):
     """A camera is at the origin of its own space and looks along -z, with +x to the right and +y up.
 
     Camera(matrix, fov_y_rad=0.8): matrix is world_from_camera, 4 x 4, rigid, its translation in the last column.
-    Camera.look_at(eye, target), Camera.from_intrinsics(K, size, R, t), Camera.from_matrices(view, projection), Scene.frame() and
-    Scene.cameras give others.
+    Camera.look_at(eye, target), Camera.orbit(theta, phi, radius), Camera.view(scene, "iso"), Camera.from_intrinsics(K, size, R, t),
+    Camera.from_matrices(view, projection), Scene.frame() and Scene.cameras give others.
 
     Members:
         name: of a camera of a file ("")
@@ -125,6 +125,37 @@ class Camera(Record):
         matrix[:3, 3] = points[0]
         camera._place(matrix)
         return camera
+
+    @classmethod
+    def orbit(cls, theta: float, phi: float, radius: float, target: Point = (0, 0, 0), up: str = "y", **members: Any) -> Camera:
+        """A camera that looks at `target` from a distance, by the angles of <model-viewer>'s camera-orbit.
+
+        theta: degrees about the vertical axis, from +z towards +x. phi: degrees from straight above. radius: world units. up: the world's
+        vertical axis, "x", "y", "z", "-x", "-y" or "-z".
+        """
+        camera, at = cls(**members), np.array(reals(target, 3, "target"))
+        angles = real(theta, "theta"), 90 - real(phi, "phi")
+        if not 0 < real(radius, "radius") < math.inf:
+            raise UsageError(f"radius: expected a distance above 0, found {shown(radius)}")
+        _c.call("camera_orbit", (ctypes.c_double * 3)(), *angles, 1.0, up_axis(up), ctypes.byref(camera._c))
+        matrix = camera.matrix
+        matrix[:3, 3] = at + matrix[:3, 2] * radius
+        camera._place(matrix)
+        return camera
+
+    @classmethod
+    def view(cls, scene, view="iso", size=(1280, 720), **options: Any) -> Camera:
+        """The camera of scene.render(size, view=view): of the whole scene from a side, at the distance and scale that shows all sides.
+
+        view: "front", "back", "left", "right", "top", "bottom", "iso", or (azimuth, elevation) in degrees. size: (width, height) of the
+        picture. options: zoom, fov, orthographic and fit, as in render().
+        """
+        from ._options import check_names
+        from ._setup import checked_size
+        from ._views import drawn_views
+
+        check_names(options, ("zoom", "fov", "orthographic", "fit"), "Camera.view")
+        return scene._world.out(drawn_views(scene, [view], checked_size(size), options)[0])
 
     @classmethod
     def from_intrinsics(cls, K, size, R, t, first_pixel: float = 0, **members: Any) -> Camera:

@@ -52,6 +52,10 @@ STRUCTS = {
         size_t size; const char* name; float world_from_camera[16]; int32_t orthographic; float fov_y_rad; float aspect; float
         half_height, half_width; float near_z; float far_z; float sides[4]; int32_t reserved;
 """,
+    "halflit_view": """
+        size_t size; double margin_x, margin_y; float azimuth_deg; float elevation_deg; float zoom; float fov_y_deg; int32_t
+        orthographic; int32_t any_side;
+""",
     "halflit_light": """
         size_t size; int32_t type; float color[3]; float position[3]; float direction[3]; float range; float source_radius; float
         inner_cone_rad, outer_cone_rad; float cone_power; float shadow_radius;
@@ -69,12 +73,13 @@ STRUCTS = {
         anisotropy; int32_t specular; int32_t normalize_specular; float normal_scale; int32_t shading_rate; int32_t
         environment_bands; int32_t shadows; int32_t shadow_size; int32_t soft_shadow_maps; float shadow_fade; int32_t sky_shadows;
         int32_t shadow_terminator_offset; float emission_scale; int32_t edges; int32_t hidden_edges; float edge_angle_deg; float
-        edge_width; int32_t reserved[1];
+        edge_width; float edge_color[3]; int32_t reserved[2];
 """,
     "halflit_picture_request": """
         size_t size; const halflit_camera* camera; const char* scene_camera; double studio_turn_rad; int32_t width, height;
         int32_t frame; float azimuth_deg; float elevation_deg; float zoom; float fov_y_deg; int32_t orthographic; int32_t
-        own_ambient; float ambient_color[3]; float exposure; int32_t add_lights; int32_t studio; int32_t reserved;
+        own_ambient; float ambient_color[3]; float exposure; int32_t add_lights; int32_t studio; int32_t any_side; double
+        margin_x, margin_y;
 """,
     "halflit_execution": """
         size_t size; const char* isa; void* user; int32_t (*cancelled)(void* user); void (*on_tile)(void* user, int32_t x, int32_t
@@ -223,6 +228,11 @@ int32_t halflit_camera_init(halflit_camera* camera, size_t size);
 int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* camera);
 int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t height, const double rotation[9], const double translation[3], double first_pixel, halflit_camera* camera);
 int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom, halflit_camera* camera);
+int32_t halflit_view_init(halflit_view* view, size_t size);
+int32_t halflit_view_by_name(const halflit_scene* scene, const char* name, halflit_view* view);
+int32_t halflit_camera_view(const halflit_scene* scene, float aspect, const halflit_view* view, halflit_camera* camera);
+int32_t halflit_camera_views(const halflit_scene* scene, float aspect, const halflit_view* views, int32_t count, halflit_camera* cameras);
+int32_t halflit_camera_orbit(const double target[3], double azimuth_deg, double elevation_deg, double distance, int32_t up, halflit_camera* camera);
 int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera);
 int32_t halflit_light_init(halflit_light* light, size_t size);
 int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* light, int32_t* index);

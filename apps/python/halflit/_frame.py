@@ -9,11 +9,12 @@ import numpy as np
 from . import _c
 from ._errors import UsageError, warn
 from ._execution import Execution
-from ._options import KNOWN, apply_settings, check_names, settings_dict
+from ._options import KNOWN, VIEW, apply_settings, check_names, settings_dict
 from ._picture import Picture
-from ._setup import Setup, choose, drawn_camera, exposure_of, given_camera, kept
+from ._setup import Setup, checked_size, choose, drawn_camera, exposure_of, given_camera, kept
 from ._target import Target
 from ._values import real, shown
+from ._views import USUAL_SIZE, drawn_views
 
 
 _QUALITIES = {"fast": (2, 99), "draft": (8, 95)}
@@ -28,7 +29,7 @@ def draw(scene, size, options: dict) -> Picture:
 
 def draw_batch(scene, cameras: list, size, light: str, options: dict) -> Iterator[Picture]:
     """A picture for each camera, drawn when it is asked for. The scene is locked meanwhile."""
-    check_names(options, [name for name in KNOWN if name not in ("camera", "azimuth", "elevation", "setup", "out")], "render_batch")
+    check_names(options, [name for name in KNOWN if name not in ("camera", "azimuth", "elevation", "view", "fit", "setup", "out")], "render_batch")
     if light not in ("fixed", "viewer"):
         raise UsageError(f"light: expected 'fixed' or 'viewer', found {shown(light)}")
     views = [view_of(camera) for camera in cameras]
@@ -51,6 +52,19 @@ def frames(scene, views: list, size, is_fixed: bool, options: dict) -> Iterator[
                 first, size = setup, setup.size
             picture = draw_setup(scene, setup, options)
         yield picture
+
+
+def draw_views(scene, views: list, size, light: str, options: dict) -> Dict[Any, Picture]:
+    """The pictures of render_views(), by their views."""
+    lens = {name: options.pop(name) for name in ("zoom", "fov", "orthographic", "fit") if name in options}
+    check_names(options, [name for name in KNOWN if name not in (*VIEW[: VIEW.index("exposure")], "out")], "render_views")
+    if not views:
+        raise UsageError("views: expected one or more")
+    size = USUAL_SIZE if size is None else checked_size(size)
+    with scene._lock:
+        cameras = [scene._world.out(camera) for camera in drawn_views(scene, views, size, lens)]
+    names = [tuple(view) if isinstance(view, list) else view for view in views]
+    return dict(zip(names, draw_batch(scene, cameras, size, light, options)))
 
 
 def view_of(camera) -> Dict[str, Any]:

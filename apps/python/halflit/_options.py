@@ -36,7 +36,7 @@ DERIVED = {
 AOVS = (*PLANES, *DERIVED)
 
 #: Keywords of a view of the whole scene.
-WHOLE_SCENE = ("azimuth", "elevation", "zoom", "fov", "orthographic")
+WHOLE_SCENE = ("azimuth", "elevation", "zoom", "fov", "orthographic", "view", "fit")
 VIEW = ("camera", *WHOLE_SCENE, "setup", "exposure", "ev", "ambient", "studio", "studio_turn")
 PIXELS = ("dtype", "premultiplied", "out", "aovs", "region")
 EXECUTION = ("threads", "isa", "tile_size", "time_limit", "memory_limit", "progress", "cancelled")
@@ -69,7 +69,7 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "edge_angle_deg": ("edge_angle_deg", "float"),
     "edge_width": ("edge_width", "float"),
 }
-KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "lobe"))
+KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "edge_color", "lobe"))
 
 
 def check_names(options: Iterable[str], known: Iterable[str] = KNOWN, function: str = "render") -> None:
@@ -84,12 +84,14 @@ def check_names(options: Iterable[str], known: Iterable[str] = KNOWN, function: 
 
 def apply_settings(settings, options: dict) -> None:
     """Writes the keywords that were given into a halflit_settings."""
-    for name in (*SETTINGS, "background", "lobe"):
+    for name in (*SETTINGS, "background", "edge_color", "lobe"):
         value = options.get(name)
         if value is None:
             continue
         if name == "background":
             set_background(settings, value)
+        elif name == "edge_color":
+            settings.edge_color = (ctypes.c_float * 3)(*color(value, name, 3, 1))
         elif name == "lobe":
             settings.lobe, settings.override_lobe = Lobe._from(value)._c, 1
         else:

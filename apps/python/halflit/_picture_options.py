@@ -19,6 +19,8 @@ class ViewOptions(TypedDict, total=False):
     zoom: float
     fov: float
     orthographic: bool
+    view: Union[str, Tuple[float, float]]
+    fit: float
     exposure: float
     ev: float
     ambient: Color
@@ -36,6 +38,9 @@ class PictureOptions(ViewOptions, total=False):
         zoom: 2 makes things twice as large (1)
         fov: full vertical angle of that view, degrees (35)
         orthographic: that view has parallel rays, and no fov (False)
+        view: the whole scene from a side: "front", "back", "left", "right", "top", "bottom", "iso", or (azimuth, elevation). All sides have
+            one distance and one scale, in place of one as near as the side allows
+        fit: margin in pixels, to which that view, or any view of the whole scene, is fitted (none)
         setup: what Scene.setup() chose for an earlier picture, instead of all of the above and of the light below but exposure and ev
 
     The light that is chosen:
@@ -54,6 +59,7 @@ class PictureOptions(ViewOptions, total=False):
         premultiplied: colours are multiplied by alpha (False)
         out: the array to draw into, (height, width, 4); rows may have gaps (a new one)
         aovs: names of AOVS, or "all" (none)
+        edge_color: of the lines of `edges`: "#rrggbb" or linear numbers (black)
         lobe: of materials without a lobe of their own (lambert)
 
     Settings:
@@ -105,6 +111,7 @@ class PictureOptions(ViewOptions, total=False):
 
     setup: Setup
     background: Union[str, Color]
+    edge_color: Color
     region: Tuple[int, int, int, int]
     dtype: Any
     premultiplied: bool

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _c
 from ._camera import Camera
@@ -14,21 +14,12 @@ from ._lighting import Lighting
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
 from ._types import Size, Unpack
-from ._errors import UsageError
-from ._values import real, shown, truth
+from ._values import real, truth, up_axis
 from ._world import World
 
 #: Members of halflit_load_options that are truths, and those that have a keyword of their own.
 _TRUTHS = ("strict",)
 _NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre", "up")
-
-
-def up_axis(name: str) -> int:
-    """The HALFLIT_UP of "z", "-z" and so on."""
-    axes = ("x", "y", "z", "-x", "-y", "-z")  # the order of HALFLIT_UP, from 1
-    if name not in axes:
-        raise UsageError(f"up: expected one of {', '.join(axes)}, found {shown(name)}")
-    return 1 + axes.index(name)
 
 
 class Scene(Geometry, Lighting):
@@ -219,6 +210,21 @@ class Scene(Geometry, Lighting):
         from ._frame import draw_batch
 
         return draw_batch(self, list(cameras), size, light, dict(options))
+
+    def render_views(self, views: Sequence[Any], size: Size = None, *, light: str = "viewer", **options: Unpack[PictureOptions]) -> Dict[Any, pictures.Picture]:
+        """Pictures of several sides that can be compared, by one distance and one scale, as `halflit render --view`: a dict of pictures by
+        their views.
+
+        views: names ("front", "back", "left", "right", "top", "bottom", "iso"), and (azimuth, elevation) in degrees. fit: margin in pixels
+        of the largest of them; without it, all sides of the scene have that scale. light: as in render_batch(). The other keywords are
+        those of render() but for the other views, setup and out.
+
+            sheet = scene.render_views(["front", "right", "top", "iso"], 512, orthographic=True, edges="feature")
+            sheet["front"].save("front.png")
+        """
+        from ._frame import draw_views
+
+        return draw_views(self, list(views), size, light, dict(options))
 
     def motion(self, picture: pictures.Picture, camera: Camera, scene: Optional[Scene] = None) -> np.ndarray:
         """How far each point that a picture of this scene shows moves to the picture by another camera: float32 (height, width, 2), pixels,

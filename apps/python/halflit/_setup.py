@@ -13,6 +13,7 @@ from ._lazy import np
 from ._options import VIEW, WHOLE_SCENE, check_names
 from ._record import chosen
 from ._values import real, shown, sized, truth
+from ._views import drawn_views, margins
 from ._world import World
 
 class Setup:
@@ -91,7 +92,7 @@ def exposure_of(options: dict) -> Optional[float]:
     return exposure
 
 
-def request_of(scene, options: dict) -> Request:
+def request_of(scene, size: Optional[Tuple[int, int]], options: dict) -> Request:
     struct, given = _c.make("picture_request"), options.get("camera")
     whole_scene = [name for name in WHOLE_SCENE if options.get(name) is not None]
     struct.frame = bool(whole_scene) or (isinstance(given, str) and given == "frame")
@@ -106,6 +107,13 @@ def request_of(scene, options: dict) -> Request:
     for name, member in (("azimuth", "azimuth_deg"), ("elevation", "elevation_deg"), ("zoom", "zoom"), ("fov", "fov_y_deg")):
         if name in whole_scene:
             struct.put(member, options[name], name)
+    if options.get("view") is not None:
+        for name in ("azimuth", "elevation"):
+            if name in whole_scene:
+                raise UsageError(f"view: cannot be combined with {name}")
+        camera = drawn_views(scene, [options["view"]], size, options)[0]
+    elif options.get("fit") is not None:
+        struct.margin_x, struct.margin_y = margins(options["fit"], size)
     struct.orthographic = truth(options.get("orthographic") or False, "orthographic")
     struct.exposure = exposure_of(options) or 0.0
     light_of(scene, options, struct)
@@ -150,9 +158,10 @@ def set_up(scene, request: Request) -> Setup:
 def choose(scene, size, options: dict) -> Setup:
     """The setup for the keywords: that of the last frame if nothing has changed."""
     scene._check_open()
-    request = request_of(scene, options)
+    size = None if size is None else checked_size(size)
+    request = request_of(scene, size, options)
     if size is not None:
-        request.struct.width, request.struct.height = checked_size(size)
+        request.struct.width, request.struct.height = size
     key = (scene._changes, *request.key)
     if scene._chosen is None or scene._chosen[1] != key:
         scene._chosen = set_up(scene, request), key

@@ -61,3 +61,11 @@ def sized(value, name: str) -> tuple:
         return tuple(whole(x, name, -(2**31), 2**31 - 1) for x in value)
     except TypeError:
         raise UsageError(f"{name}: expected whole numbers, found {shown(value)}") from None
+
+
+def up_axis(name: str) -> int:
+    """The HALFLIT_UP of "z", "-z" and so on."""
+    axes = ("x", "y", "z", "-x", "-y", "-z")  # the order of HALFLIT_UP, from 1
+    if name not in axes:
+        raise UsageError(f"up: expected one of {', '.join(axes)}, found {shown(name)}")
+    return 1 + axes.index(name)

@@ -430,6 +430,33 @@ HALFLIT_C_API int32_t halflit_camera_from_intrinsics(const double k[9], int32_t 
 /// elevation_deg: above the horizon, -90 to 90. zoom: 2 makes things twice as large. 35, 20 and 1 give the usual three-quarter view.
 HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom,
                                            halflit_camera* camera);
+
+/// A side that the whole scene is seen from. Defaults in parentheses.
+typedef struct halflit_view {
+    size_t size;
+    double margin_x, margin_y;  ///< shares of half the picture's width and height that stay free at each side, 0 to 0.9 (0.08)
+    float azimuth_deg;          ///< around the vertical: 0 from the front (+z), positive from the right (35)
+    float elevation_deg;        ///< above the horizon, -90 to 90 (20)
+    float zoom;                 ///< 2 makes things twice as large (1)
+    float fov_y_deg;            ///< perspective: full vertical angle before the zoom (35)
+    int32_t orthographic;       ///< parallel rays (0)
+    int32_t any_side;           ///< one distance and one scale for all sides, with the middle of the scene's box in the middle; else as
+                                ///< near as the side allows (0)
+} halflit_view;
+HALFLIT_C_API int32_t halflit_view_init(halflit_view* view, size_t size);
+/// Sets the angles of a view by its name: front, back, left, right, top, bottom or iso, of the model's own front. The rest stays.
+HALFLIT_C_API int32_t halflit_view_by_name(const halflit_scene* scene, const char* name, halflit_view* view);
+/// A view of the whole scene. aspect: width / height of the picture.
+HALFLIT_C_API int32_t halflit_camera_view(const halflit_scene* scene, float aspect, const halflit_view* view, halflit_camera* camera);
+/// `count` views that can be compared: all have the middle of the scene's box in the middle of the picture, and one distance and scale, the
+/// least that shows the scene whole in each. views, cameras: arrays of `count` structs whose sizes are set, those of an array to the same
+/// size. count: 1 to 65536.
+HALFLIT_C_API int32_t halflit_camera_views(const halflit_scene* scene, float aspect, const halflit_view* views, int32_t count,
+                                           halflit_camera* cameras);
+/// Places the camera at a distance from `target`, which it looks at, by angles as those of halflit_view. up: HALFLIT_UP, the world's
+/// vertical axis. From straight above or below, the picture's up is that of nearby elevations. The lens stays.
+HALFLIT_C_API int32_t halflit_camera_orbit(const double target[3], double azimuth_deg, double elevation_deg, double distance, int32_t up,
+                                           halflit_camera* camera);
 /// A camera of the scene.
 HALFLIT_C_API int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, halflit_camera* camera);
 
@@ -590,7 +617,9 @@ typedef struct halflit_settings {
     float edge_angle_deg;
     /// of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)
     float edge_width;
-    int32_t reserved[1];  ///< 0
+    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)
+    float edge_color[3];
+    int32_t reserved[2];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
@@ -623,7 +652,8 @@ typedef struct halflit_picture_request {
     float exposure;                ///< factor on all light; 0: chosen (0)
     int32_t add_lights;            ///< a scene without any light gets some (1)
     int32_t studio;                ///< HALFLIT_STUDIO (for dark)
-    int32_t reserved;
+    int32_t any_side;              ///< of a view of the whole scene, as the margins: see halflit_view (0)
+    double margin_x, margin_y;     ///< shares of half the picture that stay free, 0 to 0.9 (0.08)
 } halflit_picture_request;
 HALFLIT_C_API int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
 

@@ -1,0 +1,53 @@
+"""Views of the whole scene, by a name or by angles."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+from . import _c
+from ._camera import Camera
+from ._errors import UsageError
+from ._values import real, shown, truth
+
+#: Pixels of a picture without a size.
+USUAL_SIZE = (1280, 720)
+
+
+def margins(fit, size: Optional[Tuple[int, int]]) -> Tuple[float, float]:
+    """Shares of half the picture that `fit` pixels are."""
+    width, height = size or USUAL_SIZE
+    if not 0 <= real(fit, "fit") < 1e6:
+        raise UsageError(f"fit: expected a margin in pixels, found {shown(fit)}")
+    return tuple(min(2 * fit / side, 0.9) for side in (width, height))
+
+
+def view_struct(scene, view, size: Optional[Tuple[int, int]], options: Dict[str, Any]):
+    """A halflit_view: its angles by a name or by (azimuth, elevation), the rest by the keywords zoom, fov, orthographic and fit."""
+    struct = _c.make("view")
+    if isinstance(view, str):
+        scene._call("view_by_name", _c.bytes_of(view, "view"), ctypes.byref(struct))
+    elif isinstance(view, (tuple, list)) and len(view) == 2:
+        struct.put("azimuth_deg", view[0], "view")
+        struct.put("elevation_deg", view[1], "view")
+    else:
+        raise UsageError(f"view: expected a name such as 'front' or 'iso', or (azimuth, elevation) in degrees, found {shown(view)}")
+    for name, member in (("zoom", "zoom"), ("fov", "fov_y_deg")):
+        if options.get(name) is not None:
+            struct.put(member, options[name], name)
+    struct.orthographic = truth(options.get("orthographic") or False, "orthographic")
+    fit = options.get("fit")
+    struct.any_side = fit is None
+    if fit is not None:
+        struct.margin_x, struct.margin_y = margins(fit, size)
+    return struct
+
+
+def drawn_views(scene, views: Sequence[Any], size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> List[Camera]:
+    """Cameras of the world that is drawn, of one distance and scale."""
+    width, height = size or USUAL_SIZE
+    structs = [view_struct(scene, view, size, options) for view in views]
+    given, made = (type(structs[0]) * len(structs))(*structs), (_c.STRUCT["halflit_camera"] * len(structs))()
+    for camera in made:
+        _c.call("camera_init", ctypes.byref(camera), ctypes.sizeof(camera))
+    scene._call("camera_views", ctypes.c_float(width / height).value, given, len(structs), made)
+    return [Camera._of(type(made[0]).from_buffer_copy(camera)) for camera in made]
