@@ -7,7 +7,7 @@ std::vector<Command> all_commands() {
     for (const auto make :
          {render_command,  view_command,  bench_command,      info_command,  explain_command, diff_command,       compare_command,
           sheet_command,   look_command,  plan_command,       merge_command, golden_command,  lobe_command,       env_command,
-          figures_command, trade_command, playground_command, help_command,  man_command,     completion_command, flags_command})
+          figures_command, trade_command, playground_command, mcp_command, help_command,  man_command,     completion_command, flags_command})
         commands.push_back(make());
     return commands;
 }

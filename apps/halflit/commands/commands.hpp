@@ -22,6 +22,7 @@ namespace halflit::cli {
 [[nodiscard]] Command figures_command();
 [[nodiscard]] Command trade_command();
 [[nodiscard]] Command playground_command();
+[[nodiscard]] Command mcp_command();
 
 // Hidden.
 [[nodiscard]] Command help_command();

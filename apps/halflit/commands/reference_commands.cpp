@@ -1,8 +1,10 @@
 // Commands that print the tables: help, man, completion, flags.
 #include "apps/halflit/commands/commands.hpp"
+#include "apps/halflit/flags/agent_pages.hpp"
 #include "apps/halflit/flags/completion.hpp"
 #include "apps/halflit/flags/help_text.hpp"
 #include "apps/halflit/flags/manual.hpp"
+#include "apps/halflit/mcp/server.hpp"
 #include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/program/terminal.hpp"
 #include "apps/halflit/program/text_file.hpp"
@@ -73,14 +75,22 @@ Command completion_command() {
 }
 
 Command flags_command() {
-    const auto markdown = std::make_shared<bool>(false);
+    struct Pages {
+        bool markdown = false, skill = false, llms = false;
+    };
+    const auto wanted = std::make_shared<Pages>();
     return {"flags",
             "Print all commands and flags",
             {},
-            {{"Flags", {{"--markdown", "", "As a page in Markdown", set_to(*markdown)}}}},
-            [markdown]() -> Result<int> {
+            {{"Flags",
+              {{"--markdown", "", "As a page in Markdown", set_to(wanted->markdown)},
+               {"--skill", "", "The page for agents that use the program", set_to(wanted->skill)},
+               {"--llms", "", "The index of the documentation, llms.txt", set_to(wanted->llms)}}}},
+            [wanted]() -> Result<int> {
                 const std::vector<Command> commands = all_commands();
-                if (*markdown) return print(markdown_page(commands));
+                if (wanted->markdown) return print(markdown_page(commands));
+                if (wanted->skill) return print(skill_page(commands, tool_helps()));
+                if (wanted->llms) return print(llms_page(commands));
                 std::string text;
                 for (const Command& command : commands)
                     if (!command.hidden) text += (text.empty() ? "" : "\n") + command_help(command, true, help_width());

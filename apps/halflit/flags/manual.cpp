@@ -51,8 +51,6 @@ std::string code_cell(const std::string& text) {
     return out + "`";
 }
 
-std::string table_row(const std::string& label, const std::string& help) { return "| " + code_cell(label) + " | " + cell(help) + " |\n"; }
-
 /// Groups that an earlier command has in the same way are named by a link to it.
 std::string markdown_groups(const Command& command, std::span<const Command> earlier) {
     std::string text, linked;
@@ -70,13 +68,17 @@ std::string markdown_groups(const Command& command, std::span<const Command> ear
             continue;
         }
         text += "\n" + group.title + "\n\n| flag | |\n|---|---|\n";
-        for (const Flag& flag : group.flags) text += table_row(flag_label(flag), flag.help);
+        for (const Flag& flag : group.flags) text += markdown_row(flag_label(flag), flag.help);
     }
     if (!linked.empty()) text = "\nAs [render](#halflit-render): " + linked + ".\n" + text;
     return text;
 }
 
 }  // namespace
+
+std::string markdown_row(const std::string& label, const std::string& help) {
+    return "| " + code_cell(label) + " | " + cell(help) + " |\n";
+}
 
 std::string program_manual(std::span<const Command> commands) {
     std::string text = page_head("halflit", kProgramHelp) + ".B halflit\n" + roff("COMMAND [FLAGS]") + "\n.br\n.B halflit\n" +
@@ -105,7 +107,7 @@ std::string markdown_page(std::span<const Command> commands) {
         if (command.hidden) continue;
         text += "\n## halflit " + command.name + "\n\n" + command.help + ".\n\n    " + usage_line(command) + "\n";
         if (!command.positionals.empty()) text += "\n| argument | |\n|---|---|\n";
-        for (const Positional& positional : command.positionals) text += table_row(positional.name, positional.help);
+        for (const Positional& positional : command.positionals) text += markdown_row(positional.name, positional.help);
         text += markdown_groups(command, commands.first(std::min<std::size_t>(i, 1)));
     }
     return text;

@@ -13,6 +13,9 @@ namespace halflit::cli {
 /// halflit-COMMAND(1)
 [[nodiscard]] std::string command_manual(const Command& command);
 
+/// A row of a table of two columns: a label as code, and text.
+[[nodiscard]] std::string markdown_row(const std::string& label, const std::string& help);
+
 /// docs/flags.md
 [[nodiscard]] std::string markdown_page(std::span<const Command> commands);
 

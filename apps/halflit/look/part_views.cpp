@@ -67,20 +67,42 @@ ViewContent content_of(const RenderJob& job, const ViewShot& shot) {
     return content;
 }
 
+constexpr float kRounding = 1e-5f;  // of a vertex in clip space, relative
+
+/// True if a box around the mesh lies within the view, by more than rounding: then so do its vertices.
+bool is_box_within(const Mesh& mesh, const Mat4& clip_from_object) {
+    if (mesh.positions.empty()) return true;
+    Vec3f low = mesh.positions[0], high = low;
+    for (const Vec3f& p : mesh.positions) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    for (unsigned i = 0; i < 8; ++i) {
+        const Vec4f c =
+            clip_from_object * Vec4f{(i & 1) != 0 ? low.x : high.x, (i & 2) != 0 ? low.y : high.y, (i & 4) != 0 ? low.z : high.z, 1.0f};
+        const float side = c.w * (1.0f - kRounding);
+        // A comparison with NaN is false.
+        if (!(c.w > 0.0f && c.z <= side && c.z >= kRounding * c.w && c.x <= side && c.x >= -side && c.y <= side && c.y >= -side))
+            return false;
+    }
+    return true;
+}
+
 /// Looks at the model's vertices: beside the picture, or outside of the camera's depths.
 void judge_vertices(const RenderJob& job, const ViewShot& shot, ViewFaults& faults) {
     const Mat4 clip_from_world = raster::clip_from_world(shot.camera, static_cast<float>(shot.width()) / static_cast<float>(shot.height()));
     const Scene& scene = job.scene();
     TimeCheck check;
     for (const Instance& instance : scene.instances) {
+        check();
         if (!raster::counts_for_views(scene, instance)) continue;
         const Mat4 m = clip_from_world * instance.world_from_object;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (is_box_within(mesh, m)) continue;
         for (const std::uint32_t index : mesh.indices) {
             check();
             const Vec3f& p = mesh.positions[index];
             const Vec4f c = m * Vec4f{p.x, p.y, p.z, 1.0f};
-            constexpr float kRounding = 1e-5f;
             const float side = c.w * (1.0f + kRounding);
             if (c.w <= 0.0f || c.z > side || c.z < -kRounding * c.w)
                 faults.cut = true;

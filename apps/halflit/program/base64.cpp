@@ -1,5 +1,6 @@
 #include "apps/halflit/program/base64.hpp"
 
+#include <cstddef>
 #include <string_view>
 
 namespace halflit::cli {

@@ -1,4 +1,4 @@
-// Bytes as text.
+// Bytes in base64 (RFC 4648, section 4), with padding: for data: URLs and JSON.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,6 @@
 
 namespace halflit::cli {
 
-/// Bytes in base64, for a data: URL.
 [[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace halflit::cli

@@ -27,7 +27,7 @@ std::optional<double> in_unit(std::string_view word, std::initializer_list<Orbit
     return std::nullopt;
 }
 
-std::optional<double> angle_of(std::string_view word, double usual_deg, double low, double high) {
+std::optional<double> orbit_angle(std::string_view word, double usual_deg, double low, double high) {
     const auto angle = word == "auto" ? usual_deg : in_unit(word, {{"deg", 1.0}, {"rad", 180.0 / kPi}, {"", 1.0}});
     return angle && *angle >= low && *angle <= high ? angle : std::nullopt;
 }
@@ -43,7 +43,7 @@ Result<CameraOrbit> parse_camera_orbit(std::string_view text) {
         return expected("an angle about the vertical, an angle from straight above and a distance, as '30deg 75deg 105%'");
     CameraOrbit orbit{.text = std::string(text)};
     constexpr double kMostTurn = 3600.0, kLeast = 1e-30, kMost = 1e30;
-    const auto theta = angle_of(words[0], orbit.theta_deg, -kMostTurn, kMostTurn), phi = angle_of(words[1], orbit.phi_deg, 0.0, 180.0);
+    const auto theta = orbit_angle(words[0], orbit.theta_deg, -kMostTurn, kMostTurn), phi = orbit_angle(words[1], orbit.phi_deg, 0.0, 180.0);
     if (!theta) return expected("an angle from -3600 to 3600 degrees first");
     if (!phi) return expected("an angle from 0 to 180 degrees as the second");
     orbit.theta_deg = *theta;

@@ -23,6 +23,8 @@
 
 namespace halflit::cli {
 
+class SceneKeeper;
+
 /// Picture size of render and info without --size.
 inline constexpr PictureSize kRenderSize{1280, 720};
 
@@ -78,8 +80,9 @@ struct RenderOptions {
     std::optional<float> exposure;    ///< a factor; none: chosen from the lights
 
     LoadOptions load;
-    FilmOptions film;        ///< of render alone
-    double timeout_s = 0.0;  ///< for loading and drawing; 0: none
+    SceneKeeper* keeper = nullptr;  ///< loads the scene; null: load_scene() alone
+    FilmOptions film;               ///< of render alone
+    double timeout_s = 0.0;         ///< for loading and drawing; 0: none
     /// `load` with that limit.
     [[nodiscard]] LoadOptions timed_load() const {
         LoadOptions timed = load;

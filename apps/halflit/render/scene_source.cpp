@@ -20,6 +20,7 @@ Result<LoadedScene> load_file(const RenderOptions& options) {
 }  // namespace
 
 Result<SceneSource> load_scene(const RenderOptions& options) {
+    if (options.keeper != nullptr) return options.keeper->load(options);
     const std::string name = options.scene.empty() ? "demo" : options.scene;
     auto built_in = built_in_scene(name);
     if (!built_in) return tl::unexpected(built_in.error());

@@ -30,6 +30,14 @@ struct SceneSource {
 /// Name of standard input in messages.
 inline constexpr const char* kStandardInputName = "standard input";
 
+/// Keeps scenes that were loaded, for a program that draws one file many times.
+class SceneKeeper {
+public:
+    virtual ~SceneKeeper() = default;
+    /// What load_scene() returns for these options without a keeper. The caller may change the scene.
+    [[nodiscard]] virtual Result<SceneSource> load(const RenderOptions& options) = 0;
+};
+
 /// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".
 [[nodiscard]] Result<SceneSource> load_scene(const RenderOptions& options);
 

@@ -1,6 +1,7 @@
 #include "apps/halflit/report/measures_json.hpp"
 
 #include "halflit/measures.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 namespace halflit::cli {
 namespace {

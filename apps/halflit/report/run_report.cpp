@@ -105,20 +105,22 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
         }
         report["environment"] = std::move(uses);
     }
-    if (!job.sections.cuts.empty()) {
-        Json sections = Json::array();
-        for (const SectionCut& cut : job.sections.cuts)
-            sections.push_back({{"plane", cut.plane},
-                                {"part", cut.part},
-                                {"name", cut_name(job, cut)},
-                                {"area", file_area(job, cut)},
-                                {"closed", cut.closed},
-                                {"open_ends", cut.open_ends}});
-        report["sections"] = std::move(sections);
-    }
+    if (!job.sections.cuts.empty()) report["sections"] = sections_json(job);
     report["warnings"] = job.warnings;
     for (const std::string& warning : rendered.warnings) report["warnings"].push_back(warning);
     report["peak_memory_bytes"] = peak_memory();
+}
+
+Json sections_json(const RenderJob& job) {
+    Json sections = Json::array();
+    for (const SectionCut& cut : job.sections.cuts)
+        sections.push_back({{"plane", cut.plane},
+                            {"part", cut.part},
+                            {"name", cut_name(job, cut)},
+                            {"area", file_area(job, cut)},
+                            {"closed", cut.closed},
+                            {"open_ends", cut.open_ends}});
+    return sections;
 }
 
 Json error_bound_json(const ErrorBound& error) {

@@ -1,0 +1,32 @@
+// halflit mcp: tools for agents, over the Model Context Protocol.
+#include "apps/halflit/commands/commands.hpp"
+#include "apps/halflit/flags/values.hpp"
+#include "apps/halflit/mcp/server.hpp"
+#include "apps/halflit/render/file_flags.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+namespace halflit::cli {
+
+Command mcp_command() {
+    const auto options = std::make_shared<McpOptions>();
+    McpOptions& o = *options;
+    const auto read_memory = [](const std::string& text) {
+        return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) { return static_cast<std::size_t>(n) * kMib; });
+    };
+    return {
+        "mcp",
+        "Offer tools to agents: the Model Context Protocol on standard input and output",
+        {},
+        {{"Server",
+          {{"--root", "FOLDER", "Read models below this folder, and write pictures there (default: the current one)", read_text(o.root)},
+           {"--allow-external", "", "Read files outside of that folder too", set_to(o.allow_external)},
+           timeout_flag(o.timeout_s, fmt::format("Stop a call that takes longer, with an error (default {})", o.timeout_s)),
+           {"--max-memory", "MIB", "Stop a call that needs more memory, all of the process counted; at least 32 (default: no limit)",
+            parsed(o.max_memory_bytes, read_memory)}}}},
+        [options] { return serve(*options); }};
+}
+
+}  // namespace halflit::cli

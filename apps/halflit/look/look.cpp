@@ -1,0 +1,156 @@
+#include "apps/halflit/look/look.hpp"
+
+#include "apps/halflit/look/certificate.hpp"
+#include "apps/halflit/look/look_json.hpp"
+#include "apps/halflit/look/part_views.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/report/measures_json.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+constexpr PictureSize kCertifiedSize{800, 640};
+constexpr PictureSize kMargin{76, 44};  // pixels: room for dimension lines
+constexpr std::size_t kMostAlone = 24;  // parts that are drawn alone
+constexpr const char* kPaper = "#eceef1";
+
+/// Pictures are larger where each triangle has to be seen.
+PictureSize usual_size(const LookOptions& options) { return options.certify > 0 ? kCertifiedSize : kViewSize; }
+
+/// What a sheet of views has unless the flags say otherwise.
+void set_defaults(LookOptions& options) {
+    const auto given = [&](std::string_view name) {
+        return std::find(options.given_settings.begin(), options.given_settings.end(), name) != options.given_settings.end();
+    };
+    if (!given("edges")) options.settings.edges = EdgeChoice::feature;
+    if (options.settings.background_linear == usual_settings().background_linear)
+        if (const auto paper = parse_color(kPaper)) options.settings.background_linear = *paper;
+    options.view.orthographic = !options.perspective;
+    if (options.camera || options.camera_position || (options.whole_scene && options.film.views.empty())) return;  // one view
+    if (options.film.views.empty()) options.film.views = *parse_views("front,right,top,iso");
+    options.whole_scene = true;
+    if (!options.fit_px) {
+        const PictureSize size = options.size.value_or(usual_size(options));
+        options.fit_px = PictureSize{std::min(kMargin.width, size.width / 5), std::min(kMargin.height, size.height / 5)};
+    }
+}
+
+/// Adds pictures to the shots until each triangle is seen.
+Result<Certificate> add_views(RenderJob& job, Renderer& renderer, Renderer& alone, const LookOptions& options,
+                              std::vector<ViewShot>& shots) {
+    auto certificate = certify(job, alone, shots, {options.certify, static_cast<std::size_t>(options.most_views)});
+    if (!certificate) return certificate;
+    for (std::size_t i = shots.size(); i < certificate->shots.size(); ++i) {
+        auto shot = draw_shot(job, renderer, certificate->shots[i].name, certificate->shots[i].camera, {});
+        if (!shot) return tl::unexpected(shot.error());
+        shot->detail = certificate->shots[i].detail;
+        shots.push_back(std::move(*shot));
+    }
+    return certificate;
+}
+
+/// The views that the flags name; one of the file's camera or the flags' otherwise.
+Result<std::vector<ViewShot>> draw_views(RenderJob& job, Renderer& renderer, const LookOptions& options) {
+    std::vector<ViewShot> shots;
+    const bool own = job.film.views.empty();
+    for (std::size_t i = 0; i < std::max<std::size_t>(job.film.views.size(), 1); ++i) {
+        auto shot = draw_shot(job, renderer, own ? "view" : options.film.views[i].name, own ? job.camera : job.film.views[i], {});
+        if (!shot) return tl::unexpected(shot.error());
+        shots.push_back(std::move(*shot));
+    }
+    return shots;
+}
+
+std::vector<std::string> faults_of(const RenderJob& job, std::span<const ViewShot> shots, std::span<const ViewContent> contents,
+                                   const Json& report) {
+    std::vector<std::string> faults;
+    for (std::size_t i = 0; i < shots.size(); ++i)
+        for (const std::string& fault : contents[i].faults.names()) faults.push_back(fmt::format("view {}: {}", shots[i].name, fault));
+    for (const Json& number : report["never_seen"]) {
+        const Part& part = job.source.parts->list()[number.get<std::size_t>() - 1];
+        faults.push_back(fmt::format("part {}{}{} is in no view", number.get<std::size_t>(), part.name.empty() ? "" : ", ", part.name));
+    }
+    return faults;
+}
+
+std::string certificate_line(const Certificate& certificate, std::size_t views) {
+    const auto of = [&](TriangleStatus status) { return certificate.count(status); };
+    return fmt::format("certificate: {} triangles seen with {} pixels or more in {} views, {} hidden, {} seen with less, {} unknown",
+                       of(TriangleStatus::seen), certificate.least, views, of(TriangleStatus::hidden), of(TriangleStatus::less),
+                       of(TriangleStatus::unknown));
+}
+
+}  // namespace
+
+std::vector<FlagGroup> look_flags(LookOptions& o) {
+    auto groups = render_flags(o, kViewSize);
+    groups.insert(
+        groups.begin(),
+        {"Sheet",
+         {{"--projection", "third|first", "Third angle: the top is above the front; first angle: below it (default third)",
+           [&o](const std::string& text) -> Result<void> {
+               if (text != "third" && text != "first") return fail(ErrorCode::usage, "expected third or first, found '" + text + "'");
+               o.projection = text == "first" ? Projection::first_angle : Projection::third_angle;
+               return {};
+           }},
+          {"--certify", "PIXELS",
+           "Add views until each triangle is seen with so many pixels, or is hidden from all around; the report lists those that are not",
+           read_int(o.certify, 1, 10000)},
+          {"--certify-views", "N", fmt::format("Most views of a certificate (default {})", o.most_views), read_int(o.most_views, 1, 1000)},
+          {"--perspective", "", "Draw views in perspective; without it, by parallel rays", set_to(o.perspective)}}});
+    return groups;
+}
+
+Result<RenderJob> look_job(LookOptions options) {
+    if (options.film.turntable > 0 || options.film.frames) return fail(ErrorCode::usage, "look: expected views, found moving pictures");
+    if (options.settings.region.width > 0) return fail(ErrorCode::usage, "--region: expected whole pictures in a sheet");
+    set_defaults(options);
+    return make_render_job(options, usual_size(options));
+}
+
+Result<LookResult> look(const LookOptions& given) {
+    LookOptions options = given;
+    set_defaults(options);
+    auto made = look_job(given);
+    if (!made) return tl::unexpected(made.error());
+    RenderJob& job = *made;
+    for (const std::string& warning : job.warnings) print_warning(warning);
+    Renderer renderer;
+    auto views = draw_views(job, renderer, options);
+    if (!views) return tl::unexpected(views.error());
+    std::vector<ViewShot>& shots = *views;
+    Renderer alone;  // keeps what the pictures' renderer has
+    std::optional<Certificate> certificate;
+    if (options.certify > 0) {
+        auto certified = add_views(job, renderer, alone, options, shots);
+        if (!certified) return tl::unexpected(certified.error());
+        certificate = std::move(*certified);
+    }
+    const auto contents = count_parts(job, alone, shots, kMostAlone);
+    if (!contents) return tl::unexpected(contents.error());
+    const auto measures = measures_json(job);
+    if (!measures) return tl::unexpected(measures.error());
+    LookResult result;
+    result.report = look_json(job, *measures, shots, *contents);
+    if (!job.sections.cuts.empty()) result.report["sections"] = sections_json(job);
+    if (certificate) {
+        result.report["certificate"] = certificate_json(job, *certificate);
+        result.certificate = certificate_line(*certificate, shots.size());
+    }
+    if (options.sheet) {
+        auto sheet = look_sheet(job, shots, *contents, options.projection, look_footer(job, *measures));
+        if (!sheet) return tl::unexpected(sheet.error());
+        result.sheet = std::move(*sheet);
+    }
+    if (job.source.file) result.inputs = job.source.file->files;
+    result.faults = faults_of(job, shots, *contents, result.report);
+    result.good = result.report["good"] == true && (!certificate || certificate->complete());
+    return result;
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,88 @@
+#include "apps/halflit/mcp/kept_scenes.hpp"
+
+#include "apps/halflit/render/built_in_scenes.hpp"
+#include "apps/io/gltf/build/pose_sources.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+/// All that decides what is loaded. A new member does not compile here until it is added.
+auto key_of(const LoadLimits& limits) {
+    const auto& [file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, lights, seconds] = limits;
+    (void)seconds;  // decides whether it is loaded
+    return std::tuple(file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, lights);
+}
+auto key_of(const LoadOptions& options) {
+    const auto& [strict, external, limits, threads, recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate] = options;
+    (void)threads;  // the result is the same
+    return std::tuple(strict, external, key_of(limits), recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate);
+}
+
+std::size_t bytes_of_scene(const Scene& scene) {
+    constexpr std::size_t kTexelBytes = 11;  // with smaller levels
+    std::uint64_t bytes = scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material);
+    for (const Mesh& mesh : scene.meshes) bytes += sizeof mesh + io::detail::bytes_of(mesh);
+    for (const Texture& texture : scene.textures)
+        bytes += kTexelBytes * static_cast<std::uint64_t>(texture.width()) * static_cast<std::uint64_t>(texture.height());
+    return static_cast<std::size_t>(bytes);
+}
+
+SceneSource copy_of(const SceneSource& source) {
+    return {source.name,
+            std::make_unique<Scene>(*source.scene),
+            source.file,
+            source.warnings,
+            source.animations,
+            source.animation,
+            source.placement,
+            source.motion,
+            std::make_shared<Parts>(*source.parts)};
+}
+
+}  // namespace
+
+KeptScenes::FileState KeptScenes::state_of(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return {path};
+    return {path, std::int64_t{status.st_size}, std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec};
+}
+
+bool KeptScenes::is_fresh(const Kept& kept) {
+    return std::all_of(kept.files.begin(), kept.files.end(), [](const FileState& file) { return state_of(file.path) == file; });
+}
+
+Result<SceneSource> KeptScenes::load(const RenderOptions& options) {
+    kept_.remove_if([](const Kept& kept) { return !is_fresh(kept); });
+    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+        return kept.scene == options.scene && key_of(kept.load) == key_of(options.load);
+    });
+    if (found != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, found);
+        return copy_of(kept_.front().source);
+    }
+    RenderOptions alone = options;
+    alone.keeper = nullptr;
+    std::vector<FileState> files{state_of(options.scene)};  // before it is read
+    auto source = load_scene(alone);
+    if (!source || is_built_in_name(options.scene)) return source;
+    const std::size_t bytes = bytes_of_scene(*source->scene);
+    if (bytes > kMostBytes / 2) return source;
+    if (source->file)
+        for (const std::string& path : source->file->files) files.push_back(state_of(path));
+    kept_.push_front({options.scene, options.load, std::move(files), copy_of(*source), bytes});
+    std::size_t all = 0, scenes = 0;
+    for (auto kept = kept_.begin(); kept != kept_.end();) {
+        all += kept->bytes;
+        kept = ++scenes > kMostScenes || all > kMostBytes ? kept_.erase(kept) : std::next(kept);
+    }
+    return source;
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,129 @@
+#include "apps/halflit/mcp/server.hpp"
+
+#include "apps/halflit/farm/picture_file.hpp"
+#include "apps/halflit/mcp/kept_scenes.hpp"
+#include "apps/halflit/mcp/message_queue.hpp"
+#include "apps/halflit/mcp/session.hpp"
+#include "apps/halflit/mcp/tool.hpp"
+#include "apps/halflit/program/base64.hpp"
+#include "apps/halflit/program/heap.hpp"
+#include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/program/spelling.hpp"
+#include "apps/halflit/program/text_file.hpp"
+#include "apps/halflit/program/timeout.hpp"
+#include "apps/io/files/atomic_file.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+constexpr std::size_t kMostSentBytes = std::size_t{16} << 20;  // that are sent
+constexpr const char* kInstructions =
+    "halflit looks at 3D models (glTF, STL, PLY, OBJ, OFF, 3MF). After making or changing a model, call look: it shows labelled views and "
+    "reports what they show. Lines that begin with FAULT tell what must not be relied on. Then measure, section or explain what is in "
+    "doubt. "
+    "Paths are relative to the server's folder.";
+
+Json text_content(std::string text) { return {{"type", "text"}, {"text", std::move(text)}}; }
+
+Json error_result(const std::string& message) { return {{"content", Json::array({text_content("error: " + message)})}, {"isError", true}}; }
+
+Json result_of(ToolAnswer answer, bool structured) {
+    if (answer.picture.bytes.size() > kMostSentBytes) {
+        answer.picture.bytes.clear();
+        answer.notes.emplace_back("The picture is too large to be sent; a smaller size or an output shows it");
+    }
+    std::string text;
+    for (const std::string& note : answer.notes) text += note + "\n";
+    Json content = Json::array({text_content(text + to_text(answer.report, true))});
+    if (!answer.picture.bytes.empty())
+        content.push_back({{"type", "image"}, {"data", base64(answer.picture.bytes)}, {"mimeType", answer.picture.mime_type}});
+    Json result{{"content", std::move(content)}, {"isError", false}};
+    if (structured) result["structuredContent"] = std::move(answer.report);
+    return result;
+}
+
+class Tools : public ToolHost {
+public:
+    Tools(const McpOptions& options, ModelFolder folder, MessageQueue& queue)
+        : options_(options), folder_(std::move(folder)), queue_(queue) {}
+
+    [[nodiscard]] Json list() const override {
+        Json tools = Json::array();
+        for (const Tool& tool : all_tools()) tools.push_back(tool_json(tool));
+        return tools;
+    }
+    [[nodiscard]] std::optional<std::string> unknown(const std::string& name) const override {
+        std::vector<std::string> names;
+        for (const Tool& tool : all_tools()) names.push_back(tool.name);
+        return std::find(names.begin(), names.end(), name) != names.end() ? std::nullopt : std::optional(did_you_mean(name, names));
+    }
+    [[nodiscard]] std::optional<Json> call(const nlohmann::json& id, const std::string& name, const nlohmann::json& arguments,
+                                           bool structured) override {
+        const auto tools = all_tools();
+        const Tool& tool = *std::find_if(tools.begin(), tools.end(), [&](const Tool& one) { return one.name == name; });
+        queue_.begin_call(id);
+        Json result;
+        try {
+            auto answer = run(tool, arguments);
+            result = answer ? result_of(std::move(*answer), structured) : error_result(answer.error().message);
+        } catch (const std::bad_alloc&) {
+            result = error_result("out of memory");
+        } catch (const std::exception& exception) {
+            result = error_result(std::string("internal error: ") + exception.what());
+        }
+        queue_.end_call();
+        if (queue_.cancelled()) return std::nullopt;
+        return result;
+    }
+    [[nodiscard]] std::string instructions() const override { return kInstructions; }
+
+private:
+    Result<ToolAnswer> run(const Tool& tool, const nlohmann::json& arguments) {
+        const ToolCall call = tool.make();
+        if (const auto read = read_arguments(tool, call, arguments, folder_); !read) return tl::unexpected(read.error());
+        for (RenderOptions* const scene : call.scenes) {
+            scene->keeper = &kept_;
+            scene->timeout_s = scene->timeout_s > 0.0 ? std::min(scene->timeout_s, options_.timeout_s) : options_.timeout_s;
+            scene->max_memory_bytes = options_.max_memory_bytes;
+            scene->execution.cancelled = [this] { return queue_.cancelled(); };
+        }
+        io::begin_file_set();
+        return within_memory(*call.scenes.front(), [&] { return within_time(options_.timeout_s, call.run); });
+    }
+
+    const McpOptions& options_;
+    ModelFolder folder_;
+    MessageQueue& queue_;
+    KeptScenes kept_;
+};
+
+}  // namespace
+
+std::vector<NamedHelp> tool_helps() {
+    std::vector<NamedHelp> helps;
+    for (const Tool& tool : all_tools()) helps.push_back({tool.name, tool.help});
+    return helps;
+}
+
+Result<int> serve(const McpOptions& options) {
+    auto folder = ModelFolder::enter(options.root, options.allow_external);
+    if (!folder) return tl::unexpected(folder.error());
+    if (options.max_memory_bytes == 0) prepare_heap();
+    const auto queue = MessageQueue::start(STDIN_FILENO);
+    Tools tools(options, std::move(*folder), *queue);
+    McpSession session(tools);
+    while (const auto message = queue->next()) {
+        const Json answer = message->error != 0 ? rpc_error({}, message->error, message->reason) : session.answer(message->message);
+        if (answer.is_null()) continue;
+        if (const auto written = write_text("-", to_text(answer, true)); !written) return tl::unexpected(written.error());
+    }
+    return 0;
+}
+
+}  // namespace halflit::cli

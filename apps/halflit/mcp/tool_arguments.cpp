@@ -1,0 +1,136 @@
+#include "apps/halflit/mcp/tool.hpp"
+#include "apps/halflit/program/spelling.hpp"
+#include "apps/halflit/render/built_in_scenes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace halflit::cli {
+namespace {
+
+using Value = nlohmann::json;
+
+/// Forms of flags whose value is one number.
+constexpr std::array kNumbers = {"N", "DEG", "PX", "PIXELS", "SECONDS", "CODES", "X", "W", "S", "R", "D"};
+
+bool is_digits(const std::string& word) { return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos; }
+
+/// Words of a form that are values themselves; empty if one of them stands for something.
+std::vector<std::string> choices_of(const std::string& form) {
+    std::vector<std::string> words = words_of(form, '|');
+    const auto stands_for = [](const std::string& word) {
+        return std::any_of(word.begin(), word.end(), [](char c) { return (c >= 'A' && c <= 'Z') || c == '.'; });
+    };
+    if (words.size() < 2 || std::any_of(words.begin(), words.end(), stands_for)) words.clear();
+    return words;
+}
+
+Json type_of(const Flag& flag) {
+    if (flag.form.empty()) return {{"type", "boolean"}};
+    const std::vector<std::string> choices = choices_of(flag.form);
+    if (!choices.empty() && std::all_of(choices.begin(), choices.end(), is_digits)) {
+        Json numbers = Json::array();
+        for (const std::string& choice : choices) numbers.push_back(std::stoi(choice));
+        return {{"type", "integer"}, {"enum", std::move(numbers)}};
+    }
+    if (!choices.empty()) return {{"type", "string"}, {"enum", choices}};
+    const bool number = std::find(kNumbers.begin(), kNumbers.end(), flag.form) != kNumbers.end();
+    return {{"type", number ? "number" : "string"}};
+}
+
+Json property_of(const Flag& flag) {
+    Json property = flag.repeated ? Json{{"type", "array"}, {"items", type_of(flag)}} : type_of(flag);
+    const bool explains = !flag.form.empty() && choices_of(flag.form).empty() && flag.form.find_first_of("|,:=") != std::string::npos;
+    property["description"] = (explains ? flag.form + ": " : "") + flag.help;
+    return property;
+}
+
+std::string argument_of(const Flag& flag) { return flag.long_name().substr(2); }
+
+const Flag* find_flag(const ToolCall& call, std::string_view name) {
+    for (const FlagGroup& group : call.groups)
+        for (const Flag& flag : group.flags)
+            if (argument_of(flag) == name) return &flag;
+    return nullptr;
+}
+
+/// A value's text, as a command line would have it.
+Result<std::string> text_of_value(const Flag& flag, const Value& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) return value.dump();
+    if (value.is_boolean() && flag.form == "off|on") return std::string(value.get<bool>() ? "on" : "off");
+    return fail(ErrorCode::usage, std::string("expected ") + (flag.form.empty() ? "true or false" : flag.form) +
+                                      ", found a value of type " + value.type_name());
+}
+
+Result<void> read_text_of(const Flag& flag, std::string text, const ModelFolder& folder) {
+    const std::vector<std::string> words = words_of(flag.form, '|');
+    const auto named = [&](const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+    if (text.empty() && !flag.form.empty()) return fail(ErrorCode::usage, "expected a value, found nothing");
+    if (text.find('\0') != std::string::npos) return fail(ErrorCode::usage, "expected text without zero bytes");
+    const bool built_in = named(kModelForm) && is_built_in_name(text);
+    const bool reads = named(kModelForm) || named(kFileForm), writes = named(kPictureForm);
+    if ((reads || writes) && !named(text) && !built_in) {
+        auto path = reads ? folder.to_read(text) : folder.to_write(text);
+        if (!path) return tl::unexpected(path.error());
+        text = std::move(*path);
+    }
+    return flag.read(text);
+}
+
+Result<void> read_argument(const Flag& flag, const Value& value, const ModelFolder& folder) {
+    constexpr std::size_t kMostValues = 1000;
+    if (value.is_null()) return {};
+    if (flag.form.empty()) {
+        if (!value.is_boolean())
+            return fail(ErrorCode::usage, std::string("expected true or false, found a value of type ") + value.type_name());
+        return value.get<bool>() ? flag.read("") : Result<void>();
+    }
+    if (value.is_array() && flag.repeated) {
+        if (value.size() > kMostValues) return fail(ErrorCode::usage, "expected at most " + std::to_string(kMostValues) + " values");
+        for (const Value& one : value) {
+            auto text = text_of_value(flag, one);
+            if (!text) return tl::unexpected(text.error());
+            if (const auto read = read_text_of(flag, std::move(*text), folder); !read) return read;
+        }
+        return {};
+    }
+    auto text = text_of_value(flag, value);
+    if (!text) return tl::unexpected(text.error());
+    return read_text_of(flag, std::move(*text), folder);
+}
+
+}  // namespace
+
+Json tool_json(const Tool& tool) {
+    const ToolCall call = tool.make();
+    Json properties = Json::object();
+    for (const std::string_view name : tool.shown)
+        if (const Flag* const flag = find_flag(call, name)) properties[std::string(name)] = property_of(*flag);
+    Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"required", tool.required}};
+    return {{"name", tool.name},
+            {"description", tool.help},
+            {"inputSchema", std::move(schema)},
+            {"annotations", {{"readOnlyHint", !tool.writes}, {"idempotentHint", true}, {"openWorldHint", false}}}};
+}
+
+Result<void> read_arguments(const Tool& tool, const ToolCall& call, const Value& arguments, const ModelFolder& folder) {
+    for (const auto& [name, value] : arguments.items()) {
+        const Flag* const flag = find_flag(call, name);
+        if (flag == nullptr) {
+            std::vector<std::string> names;
+            for (const FlagGroup& group : call.groups)
+                for (const Flag& one : group.flags) names.push_back(argument_of(one));
+            return fail(ErrorCode::usage, tool.name + ": unknown argument '" + name + "'" + did_you_mean(name, names));
+        }
+        if (const auto read = read_argument(*flag, value, folder); !read)
+            return fail(read.error().code, name + ": " + read.error().message);
+    }
+    for (const std::string_view name : tool.required)
+        if (const auto found = arguments.find(std::string(name)); found == arguments.end() || found->is_null())
+            return fail(ErrorCode::usage, tool.name + ": expected the argument '" + std::string(name) + "'");
+    return {};
+}
+
+}  // namespace halflit::cli

@@ -1,0 +1,49 @@
+#include "apps/halflit/report/pixel_stories.hpp"
+
+#include "apps/halflit/report/pixel_story_json.hpp"
+#include "apps/halflit/report/pixel_story_text.hpp"
+#include "halflit/explain.hpp"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace halflit::cli {
+
+Result<PixelStories> tell_pixels(const RenderJob& job, std::span<const PixelPlace> pixels) {
+    for (const auto& [x, y] : pixels)
+        if (x >= job.width || y >= job.height)
+            return fail(ErrorCode::usage,
+                        fmt::format("--pixel: expected a pixel of the {}x{} picture, found {},{}", job.width, job.height, x, y));
+    const NameOfInstance name = names_of(job.source.parts);
+    Renderer renderer;
+    PixelStories stories{report_head("explain"), {}};
+    Json list = Json::array();
+    for (const auto& [x, y] : pixels) {
+        const auto story = explain_pixel(renderer, *job.prepared, job.light, job.camera, job.settings, {job.width, job.height}, x, y,
+                                         job.timed_execution());
+        if (!story) return tl::unexpected(story.error());
+        list.push_back(story_json(*story, name));
+        stories.text += (stories.text.empty() ? "" : "\n") + story_text(*story, name);
+    }
+    stories.report["scene"] = job.source.name;
+    stories.report["size"] = {job.width, job.height};
+    stories.report["pixels"] = std::move(list);
+    return stories;
+}
+
+Flag pixel_flag(std::vector<PixelPlace>& pixels) {
+    const auto read_pixel = [&pixels](const std::string& text) -> Result<void> {
+        const auto place = parse_pixel(text);
+        if (!place) return tl::unexpected(place.error());
+        pixels.push_back(*place);
+        return {};
+    };
+    return {.names = "--pixel",
+            .form = "X,Y",
+            .help = "The pixel, from the upper left corner of the picture; may be given several times",
+            .read = read_pixel,
+            .repeated = true};
+}
+
+}  // namespace halflit::cli
