@@ -1,14 +1,12 @@
 // halflit compare: what changed between two versions of a model, in pictures and numbers.
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/compare/comparison.hpp"
+#include "apps/halflit/compare/compare_files.hpp"
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/program/timeout.hpp"
-#include "apps/halflit/report/measures_json.hpp"
 #include "halflit/image.hpp"
-#include "sh/vec3d.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -20,48 +18,6 @@ namespace halflit::cli {
 namespace {
 
 constexpr const char* kSheetName = "compare.png";
-
-/// Draws each view of both, and compares them.
-Result<void> compare_views(ModelPair& pair, Comparison& out) {
-    SeenTriangles seen_a(pair.a.scene()), seen_b(pair.b.scene());
-    Renderer renderer;
-    const ShotPlanes planes{.picture = true, .depth = true, .normal = true};
-    for (std::size_t i = 0; i < pair.cameras.size(); ++i) {
-        const Camera& camera = pair.cameras[i];
-        auto a = draw_shot(pair.a, renderer, pair.view_names[i], camera, planes);
-        if (!a) return tl::unexpected(a.error());
-        auto b = draw_shot(pair.b, renderer, pair.view_names[i], camera, planes);
-        if (!b) return tl::unexpected(b.error());
-        seen_a.add(a->instance, a->triangle), seen_b.add(b->instance, b->triangle);
-        const Vec4f &eye = camera.world_from_camera.c[3], &back = camera.world_from_camera.c[2];
-        const Vec3d middle = pair.bounds.empty ? Vec3d{} : to_double(pair.bounds.center());
-        const double distance = dot(Vec3d{eye.x, eye.y, eye.z} - middle, Vec3d{back.x, back.y, back.z});
-        out.views.push_back(compare_shots(std::move(*a), std::move(*b), out.max_codes, distance));
-    }
-    out.models.a.unseen_area = seen_a.unseen_area();
-    out.models.b.unseen_area = seen_b.unseen_area();
-    return {};
-}
-
-Result<Comparison> compare_files(const CompareOptions& options) {
-    auto pair = load_pair(options);
-    if (!pair) return tl::unexpected(pair.error());
-    Comparison out;
-    out.a = options.a, out.b = options.b;
-    out.unit = unit_name(pair->a.source);
-    out.max_codes = options.max_codes;
-    out.scale = pair->scale();
-    out.warnings = pair->warnings;
-    if (unit_name(pair->b.source) != out.unit) {
-        out.warnings.push_back("only one of the files has a unit of length; both are compared by their numbers");
-        out.unit.clear();
-    }
-    auto models = compare_models(*pair);
-    if (!models) return tl::unexpected(models.error());
-    out.models = std::move(*models);
-    if (const auto compared = compare_views(*pair, out); !compared) return tl::unexpected(compared.error());
-    return out;
-}
 
 /// The sheet's path as a comment refers to it: relative to the comment's folder.
 std::string sheet_for(const CompareOptions& options) {
@@ -127,19 +83,14 @@ Result<int> run_compare(const CompareOptions& options) {
 Command compare_command() {
     const auto options = std::make_shared<CompareOptions>();
     CompareOptions& o = *options;
-    auto groups = render_flags(o, kCompareSize);
-    constexpr std::string_view kLeftOut[] = {"--region",  "--camera",    "--camera-position", "--camera-target",
-                                             "--azimuth", "--elevation", "--ortho",           "--orthographic"};
-    remove_flags(groups, kLeftOut);
-    groups.insert(
-        groups.begin(),
-        {"Comparison",
-         {{"-o,--output", "DIR", "Folder for index.html, a page that holds its pictures, and compare.png",
-           [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
-          {"--json", "FILE", "Write the numbers as one JSON object; - is standard output", read_text(o.json)},
-          {"--markdown", "FILE", "Write a comment for a pull request, with the picture of -o; - is standard output", read_text(o.markdown)},
-          {"--max", "CODES", "Largest difference of a colour's channel that is no change, 0 to 255 (default 2)",
-           read_int(o.max_codes, 0, 255)}}});
+    auto groups = compare_flags(o);
+    groups.insert(groups.begin(),
+                  {"Comparison",
+                   {{"-o,--output", "DIR", "Folder for index.html, a page that holds its pictures, and compare.png",
+                     [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
+                    {"--json", "FILE", "Write the numbers as one JSON object; - is standard output", read_text(o.json)},
+                    {"--markdown", "FILE", "Write a comment for a pull request, with the picture of -o; - is standard output",
+                     read_text(o.markdown)}}});
     Positional a = scene_argument(o, true), b = scene_argument(o, true);
     a.name = "A", a.help = "The first version: " + a.help, a.read = read_text(o.a);
     b.name = "B", b.help = "The second version", b.read = read_text(o.b);

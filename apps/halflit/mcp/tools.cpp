@@ -1,3 +1,4 @@
+#include "apps/halflit/compare/compare_files.hpp"
 #include "apps/halflit/farm/picture_file.hpp"
 #include "apps/halflit/look/look.hpp"
 #include "apps/halflit/mcp/tool.hpp"
@@ -151,10 +152,34 @@ ToolCall render_call() {
             }};
 }
 
+struct CompareCall : CompareOptions {
+    std::string output;
+};
+
+Result<ToolAnswer> run_compare_tool(const CompareCall& call) {
+    const auto comparison = compare_files(call);
+    if (!comparison) return tl::unexpected(comparison.error());
+    const auto sheet = comparison_sheet(*comparison);
+    if (!sheet) return tl::unexpected(sheet.error());
+    auto picture = finish_picture(*sheet, call.output, call.a, {call.b});
+    if (!picture) return tl::unexpected(picture.error());
+    return ToolAnswer{{comparison_text(*comparison)}, comparison_json(*comparison), std::move(*picture)};
+}
+
+ToolCall compare_call() {
+    const auto o = std::make_shared<CompareCall>();
+    return {tool_flags({{"--a", kModelForm, "The first version: a file below the server's folder", cli::read_text(o->a)},
+                        {"--b", kModelForm, "The second version", cli::read_text(o->b)},
+                        output_flag(o->output)},
+                       compare_flags(*o)),
+            {o.get()},
+            [o] { return run_compare_tool(*o); }};
+}
+
 Result<ToolAnswer> run_info_tool(const RenderOptions& options) {
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
-    const auto text = describe_scene(*job, true);
+    const auto text = describe_scene(*job, true, false);
     if (!text) return tl::unexpected(text.error());
     return ToolAnswer{{}, Json::parse(*text)};
 }
@@ -216,6 +241,13 @@ std::span<const Tool> all_tools() {
          {"path", "section", "section-hatch", "view", "edges", "size", "perspective", "up", "output"},
          {"path", "section"},
          look_call},
+        {"compare",
+         "Compare two versions of a 3D model: pictures of both by one camera with what changed, parts, measures, and the distance of the "
+         "surfaces with its bound",
+         true,
+         {"a", "b", "view", "max", "size", "up", "output"},
+         {"a", "b"},
+         compare_call},
         {"explain",
          "Tell what made a pixel of a view of `look`: part, triangle, material, lights, and what lies before and behind it. The views are "
          "those of look with the same arguments; boxes in its report are in the same pixels",

@@ -43,7 +43,8 @@ Result<CameraOrbit> parse_camera_orbit(std::string_view text) {
         return expected("an angle about the vertical, an angle from straight above and a distance, as '30deg 75deg 105%'");
     CameraOrbit orbit{.text = std::string(text)};
     constexpr double kMostTurn = 3600.0, kLeast = 1e-30, kMost = 1e30;
-    const auto theta = orbit_angle(words[0], orbit.theta_deg, -kMostTurn, kMostTurn), phi = orbit_angle(words[1], orbit.phi_deg, 0.0, 180.0);
+    const auto theta = orbit_angle(words[0], orbit.theta_deg, -kMostTurn, kMostTurn),
+               phi = orbit_angle(words[1], orbit.phi_deg, 0.0, 180.0);
     if (!theta) return expected("an angle from -3600 to 3600 degrees first");
     if (!phi) return expected("an angle from 0 to 180 degrees as the second");
     orbit.theta_deg = *theta;
