@@ -72,7 +72,7 @@ public:
         if (const auto looked = look_closely(); !looked) return tl::unexpected(looked.error());
         for (std::size_t i = 0; i < found_.triangles.size(); ++i) settle(i);
         found_.added = found_.shots.size() - given_;
-        found_.directions = around_.size();
+        for (const Around& around : around_) found_.looked.push_back({around.view.name, around.camera});
         return std::move(found_);
     }
 
@@ -87,7 +87,8 @@ private:
     struct Around {
         GivenView view;
         Camera camera;
-        Vec3d towards;      ///< the viewer
+        Vec3d eye, right, up, towards;  ///< towards: the viewer
+        double half_width, half_height;
         double pixel_area;  ///< square units of the world
         Tally tally;
         bool used = false;
@@ -176,11 +177,15 @@ private:
             ViewSettings side{.azimuth_deg = view.azimuth_deg, .elevation_deg = view.elevation_deg, .orthographic = true};
             if (view.named && job_.scene().faces_back) side.azimuth_deg += 180.0f;
             const Camera camera = frame_scene(job_.scene(), job_.film.bounds, aspect, side);
-            auto shot = draw_shot(job_, renderer_, view.name, camera, {.picture = false});
+            auto shot = draw_shot(job_, renderer_, view.name, camera, {.picture = false, .first_sample = false});
             if (!shot) return tl::unexpected(shot.error());
-            const double pixel = pixel_size(camera, job_.width, job_.height, 1.0);
-            const Vec4f& back = camera.world_from_camera.c[2];
-            around_.push_back({view, camera, {back.x, back.y, back.z}, pixel * pixel, count(*shot)});
+            const double pixel = pixel_size(camera, job_.width, job_.height, 1.0), half_height = camera.half_height;
+            const auto column = [&](std::size_t i) {
+                const Vec4f& c = camera.world_from_camera.c[i];
+                return Vec3d{c.x, c.y, c.z};
+            };
+            around_.push_back({view, camera, column(3), column(0), column(1), column(2), half_height * double{aspect}, half_height,
+                               pixel * pixel, count(*shot)});
         }
         return {};
     }
@@ -190,7 +195,8 @@ private:
         around.used = true;
         auto shot = draw_shot(job_, renderer_, around.view.name, around.camera, {.picture = false});
         if (!shot) return tl::unexpected(shot.error());
-        keep(std::move(*shot), around.tally);
+        const Tally tally = count(*shot);
+        keep(std::move(*shot), tally);
         return {};
     }
 
@@ -208,19 +214,31 @@ private:
         return {};
     }
 
-    /// Pixels that a triangle would cover if nothing hid it.
+    /// The view shows the triangle whole if nothing hides it. Where a model has a part that is far off, views leave that out.
+    [[nodiscard]] static bool is_within(const PlacedTriangle& one, const Around& around) {
+        const Vec3d from_eye = one.middle - around.eye;
+        const double depth = -dot(from_eye, around.towards);
+        return absolute(dot(from_eye, around.right)) + one.reach <= around.half_width &&
+               absolute(dot(from_eye, around.up)) + one.reach <= around.half_height && depth - one.reach >= double{around.camera.near_z} &&
+               depth + one.reach <= double{around.camera.far_z};
+    }
+    /// Area of a triangle as seen from a direction; 0: its back is seen, which is not drawn.
+    [[nodiscard]] static double seen_area(const PlacedTriangle& one, const Around& around) {
+        const double towards = dot(one.area_normal, around.towards);
+        return one.two_sided ? absolute(towards) : std::max(towards, 0.0);
+    }
+    /// Pixels that a triangle would cover if nothing hid it; 0 if the view does not show it whole.
     [[nodiscard]] double expected(std::size_t triangle, const Around& around) const {
         const PlacedTriangle& one = placed_[triangle];
-        const double towards = dot(one.area_normal, around.towards);
-        return (one.two_sided ? absolute(towards) : std::max(towards, 0.0)) / around.pixel_area;
+        return is_within(one, around) ? seen_area(one, around) / around.pixel_area : 0.0;
     }
 
-    /// The direction in which a triangle was seen best; else the one that it faces most.
+    /// The direction that a triangle faces most.
     [[nodiscard]] const Around& best_direction(std::size_t triangle) const {
         std::size_t best = 0;
         double most = -1.0;
         for (std::size_t i = 0; i < around_.size(); ++i)
-            if (const double pixels = expected(triangle, around_[i]) * around_[i].pixel_area; pixels > most) most = pixels, best = i;
+            if (const double area = seen_area(placed_[triangle], around_[i]); area > most) most = area, best = i;
         return around_[best];
     }
 
@@ -229,17 +247,29 @@ private:
         constexpr double kMoreThanLeast = 4.0;
         const PlacedTriangle& one = placed_[triangle];
         Camera camera = around.camera;
-        const double area = expected(triangle, around) * around.pixel_area;
+        const double area = seen_area(one, around);
         const double pixel = std::sqrt(std::max(area, 1e-300) / (kMoreThanLeast * limits_.least_pixels));
-        const double least = 2e-6 * length(to_double(job_.film.bounds.max) - to_double(job_.film.bounds.min));  // float32 positions
+        // Matrices and vertices are float32: they place a point within 2.5e-7 of its coordinates, which must be an eighth of a pixel at
+        // most.
+        const Bounds& bounds = job_.film.bounds;
+        double farthest = 0.0;
+        for (const Vec3d& p : {to_double(bounds.min), to_double(bounds.max)})
+            farthest = std::max({farthest, absolute(p.x), absolute(p.y), absolute(p.z)});
+        const double least = 0.5 * job_.height * 2e-6 * farthest;
         camera.half_height = static_cast<float>(std::min(std::max(0.5 * job_.height * pixel, least), double{camera.half_height}));
-        const Vec4f &right = camera.world_from_camera.c[0], &up = camera.world_from_camera.c[1];
-        Vec4f& eye = camera.world_from_camera.c[3];
-        const Vec3d from_eye = one.middle - Vec3d{eye.x, eye.y, eye.z};
-        const double x = from_eye.x * right.x + from_eye.y * right.y + from_eye.z * right.z;
-        const double y = from_eye.x * up.x + from_eye.y * up.y + from_eye.z * up.z;
-        eye = {static_cast<float>(eye.x + right.x * x + up.x * y), static_cast<float>(eye.y + right.y * x + up.y * y),
-               static_cast<float>(eye.z + right.z * x + up.z * y), 1.0f};
+        // The planes enclose the whole model, so that all that hides the triangle is drawn.
+        double front = -1e300, back = 1e300;  // along the view, towards the viewer, from the triangle's middle
+        for (int k = 0; k < 8; ++k) {
+            const Vec3d corner{k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y,
+                               k & 4 ? bounds.max.z : bounds.min.z};
+            const double along = dot(corner - one.middle, around.towards);
+            front = std::max(front, along), back = std::min(back, along);
+        }
+        const double room = 0.1 * (front - back);
+        const Vec3f eye = to_float(one.middle + around.towards * (front + room));
+        camera.world_from_camera.c[3] = {eye.x, eye.y, eye.z, 1.0f};
+        camera.near_z = 0.0f;
+        camera.far_z = static_cast<float>((front - back) + 2.0 * room);
         return camera;
     }
 

@@ -27,9 +27,15 @@ struct TriangleView {
     std::int32_t directions = 0;  ///< hidden: from which it would have covered enough pixels
 };
 
+/// A direction from which the whole model was looked at.
+struct LookedFrom {
+    std::string name;  ///< as --view has it
+    Camera camera;     ///< of parallel rays
+};
+
 struct Certificate {
     int least = 0;                   ///< pixels that count as seen
-    std::size_t directions = 0;      ///< that were looked from, all around
+    std::vector<LookedFrom> looked;  ///< directions that were looked from
     std::vector<ViewShot> shots;     ///< the pictures, without colours: first those that were given, then those that were added
     std::size_t added = 0;           ///< of the pictures
     std::vector<std::size_t> first;  ///< of each instance's triangles in `triangles`

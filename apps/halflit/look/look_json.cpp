@@ -86,7 +86,7 @@ Json statuses_json(const Certificate& certificate, std::span<const int> instance
 }  // namespace
 
 Json certificate_json(const RenderJob& job, const Certificate& certificate) {
-    Json json{{"pixels", certificate.least}, {"directions", certificate.directions}, {"views_added", certificate.added}};
+    Json json{{"pixels", certificate.least}, {"directions", certificate.looked.size()}, {"views_added", certificate.added}};
     json["complete"] = certificate.complete();
     json["triangles"] = statuses_json(certificate, {});
     Json parts = Json::array();
@@ -146,9 +146,10 @@ std::string look_footer(const RenderJob& job, const Json& measures) {
     const double drawn = largest * job.source.placement.scale;
     const ShownUnit unit = shown_unit(job.source, drawn);
     const double factor = unit.per_drawn_unit * job.source.placement.scale;
-    text += fmt::format(": {} x {} x {}{}{}, {} triangles", number_text(size[0].get<double>() * factor),
+    const auto triangles = measures["triangles"].get<std::uint64_t>();
+    text += fmt::format(": {} x {} x {}{}{}, {} {}", number_text(size[0].get<double>() * factor),
                         number_text(size[1].get<double>() * factor), number_text(size[2].get<double>() * factor),
-                        unit.name.empty() ? "" : " ", unit.name, measures["triangles"].get<std::uint64_t>());
+                        unit.name.empty() ? "" : " ", unit.name, triangles, triangles == 1 ? "triangle" : "triangles");
     const auto count = [&](const char* key, const char* one, const char* many) {
         const auto n = measures[key].get<std::uint64_t>();
         if (n > 0) text += fmt::format(", {} {}", n, n == 1 ? one : many);

@@ -28,8 +28,9 @@ std::array<Vec3d, 3> seen_axes(const RenderJob& job, const Camera& camera) {
     return seen;
 }
 
-/// Dimension lines of the model's box, below it and on its right, where the view looks along an axis: others would be foreshortened.
-void draw_dimensions(const RenderJob& job, const ViewShot& shot, const ShownUnit& unit, Canvas& canvas) {
+/// Dimension lines of the model's box, below it and on its right, where the view looks along an axis: others would be foreshortened. seen:
+/// pixels that the lines keep clear of; points and lines are wider than their box.
+void draw_dimensions(const RenderJob& job, const ViewShot& shot, const PixelBox& seen, const ShownUnit& unit, Canvas& canvas) {
     const Mat4& m = shot.camera.world_from_camera;
     const Bounds& bounds = job.film.bounds;
     const auto is_axis = [](const Vec4f& v) {
@@ -48,25 +49,28 @@ void draw_dimensions(const RenderJob& job, const ViewShot& shot, const ShownUnit
     const auto along = [&](const Vec4f& v) { return absolute(v.x) * size.x + absolute(v.y) * size.y + absolute(v.z) * size.z; };
     const auto text = [&](double length) { return number_text(length * unit.per_drawn_unit) + (unit.name.empty() ? "" : " ") + unit.name; };
     constexpr double kBeside = 15, kClear = 6;  // pixels from the model to a line, and to a text
-    if (x1 - x0 > 1) draw_dimension(canvas, {x0, y1 + kBeside}, {x1, y1 + kBeside}, text(along(m.c[0])), kMarks);
+    const double below = std::max(y1, double(seen.y1)), right = std::max(x1, double(seen.x1));
+    if (x1 - x0 > 1) draw_dimension(canvas, {x0, below + kBeside}, {x1, below + kBeside}, text(along(m.c[0])), kMarks);
     if (y1 - y0 > 1) {
         const std::string height = text(along(m.c[1]));
-        const double x = x1 + kClear + 0.5 * width_of_text(height, kMarks.text_size);
+        const double x = right + kClear + 0.5 * width_of_text(height, kMarks.text_size);
         draw_dimension(canvas, {x, y0}, {x, y1}, height, kMarks);
     }
 }
 
 SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
     Canvas canvas(shot.picture);
-    constexpr double kAxes = 26, kInset = 16;
     const double width = shot.width(), height = shot.height();
-    draw_dimensions(job, shot, unit, canvas);
-    draw_axes(canvas, {kInset + kAxes, height - kInset - kAxes}, kAxes, seen_axes(job, shot.camera));
-    if (shot.camera.orthographic) {
+    // Axes and inset shrink with the picture, so that they stay clear of the model's margin.
+    const double axes = std::clamp(0.06 * width, 16.0, 26.0), inset = std::clamp(0.04 * width, 4.0, 16.0);
+    draw_dimensions(job, shot, content.box, unit, canvas);
+    const double middle = axes + 16.0;  // letters reach 14 pixels beyond the axes
+    if (height > 4 * middle) draw_axes(canvas, {middle, height - middle}, axes, seen_axes(job, shot.camera));
+    if (shot.camera.orthographic && !job.film.bounds.empty) {
         constexpr double kLongest = 0.2;  // of the picture's width
         const double units = pixel_size(shot.camera, shot.width(), shot.height(), 1.0) * unit.per_drawn_unit;
         const double bar = round_length(kLongest * width * units) / units;
-        draw_scale_bar(canvas, {width - kInset - bar, height - kInset}, kLongest * width, units, unit.name, kMarks);
+        draw_scale_bar(canvas, {width - inset - bar, height - inset}, kLongest * width, units, unit.name, kMarks);
     }
     std::string note;
     for (const std::string& fault : content.faults.names()) note += (note.empty() ? "" : ", ") + fault;

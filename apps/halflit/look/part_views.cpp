@@ -102,12 +102,14 @@ void judge_vertices(const RenderJob& job, const ViewShot& shot, ViewFaults& faul
         for (const std::uint32_t index : mesh.indices) {
             check();
             const Vec3f& p = mesh.positions[index];
-            const Vec4f c = m * Vec4f{p.x, p.y, p.z, 1.0f};
-            const float side = c.w * (1.0f + kRounding);
-            if (c.w <= 0.0f || c.z > side || c.z < -kRounding * c.w)
+            // Written out: a call for each vertex would take most of the time.
+            const auto row = [&](float Vec4f::*r) { return ((m.c[0].*r * p.x + m.c[1].*r * p.y) + m.c[2].*r * p.z) + m.c[3].*r; };
+            const float x = row(&Vec4f::x), y = row(&Vec4f::y), z = row(&Vec4f::z), w = row(&Vec4f::w);
+            const float side = w * (1.0f + kRounding);
+            if (w <= 0.0f || z > side || z < -kRounding * w)
                 faults.cut = true;
             else
-                faults.cropped |= c.x > side || c.x < -side || c.y > side || c.y < -side;
+                faults.cropped |= x > side || x < -side || y > side || y < -side;
         }
     }
 }

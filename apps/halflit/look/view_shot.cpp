@@ -23,7 +23,9 @@ Result<ViewShot> draw_shot(RenderJob& job, Renderer& renderer, std::string name,
     shot.triangle.resize(pixels), target.triangle = shot.triangle.data();
     if (wanted.depth) shot.depth.resize(pixels), target.depth = shot.depth.data();
     if (wanted.normal) shot.normal.resize(3 * pixels), target.normal = shot.normal.data();
-    auto drawn = renderer.render(*job.prepared, job.light, camera, job.settings, target, job.timed_execution());
+    Settings settings = job.settings;
+    if (!wanted.first_sample) settings.samples = 1;
+    auto drawn = renderer.render(*job.prepared, job.light, camera, settings, target, job.timed_execution());
     if (!drawn) return fail(drawn.error().code, job.source.name + ": " + drawn.error().message);
     shot.warnings = std::move(drawn->warnings);
     return shot;

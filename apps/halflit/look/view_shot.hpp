@@ -29,6 +29,7 @@ struct ViewShot {
 struct ShotPlanes {
     bool picture = true;  ///< colours; without them nothing is shaded
     bool depth = false, normal = false;
+    bool first_sample = true;  ///< false: planes show what lies at the pixels' centres. Without colours that is faster
 };
 
 /// Draws a view. The studio turns with the camera. The job's size and settings count; its region must be the whole picture.

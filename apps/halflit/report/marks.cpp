@@ -86,7 +86,7 @@ void draw_dimension(Canvas& canvas, Point from, Point to, const std::string& tex
     Point middle = from + along * 0.5;
     // The line crosses the text's box along its width or its height.
     if (length - 2 * head < std::min(width / std::max(std::abs(unit.x), 1e-9), high / std::max(std::abs(unit.y), 1e-9)) + 4)
-        middle = middle + (steep ? Point{kCross + width / 2, 0} : Point{0, -kCross - high / 2});
+        middle = middle + (steep ? Point{kCross + width / 2, 0} : Point{0, kCross + high / 2});
     canvas.fill_box({std::round(middle.x - width / 2), std::round(middle.y - high / 2)}, std::round(width), std::round(high),
                     style.background);
     draw_text(canvas, middle + Point{0, cap_height(style.text_size) / 2}, text, {style.text_size, style.color, Align::middle});

@@ -33,7 +33,7 @@ double draw_scale_bar(Canvas& canvas, Point left_end, double max_width, double u
 void draw_axes(Canvas& canvas, Point center, double size, const std::array<Vec3d, 3>& axes);
 
 /// A line from `from` to `to` with an arrow head and a cross line at each end, and its text in the middle on the background's colour. A
-/// text that has no room between the heads stands beside the line: right of a steep one, above a flat one.
+/// text that has no room between the heads stands beside the line: right of a steep one, below a flat one.
 void draw_dimension(Canvas& canvas, Point from, Point to, const std::string& text, const MarkStyle& style = {});
 
 }  // namespace halflit::cli
