@@ -2,6 +2,7 @@
 
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/report/camera_json.hpp"
 #include "apps/halflit/report/marks.hpp"
 #include "raster/scene/instance_material.hpp"
 
@@ -111,7 +112,7 @@ Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewS
     for (std::size_t i = 0; i < shots.size(); ++i) {
         const ViewShot& shot = shots[i];
         const ViewContent& content = contents[i];
-        Json view{{"name", shot.name}};
+        Json view{{"name", shot.name}, {"camera", camera_json(job, shot.camera, {shot.width(), shot.height()})}};
         view["pixel_size"] = shot.camera.orthographic
                                  ? Json(pixel_size(shot.camera, shot.width(), shot.height(), 1.0) / job.source.placement.scale)
                                  : Json();
