@@ -263,6 +263,16 @@ TEST_CASE("schema: explain has the keys that its schema describes", "[cli][schem
     check_report("explain", output_of({"explain", "sphere:100", "--size", "16", "--json", "--pixel", "8,8", "--background", "#ff0000"}));
 }
 
+TEST_CASE("schema: look has the keys that its schema describes", "[cli][schema]") {
+    check_report("look", output_of({"look", "demo", "--size", "120x90", "--json", "-"}, 1));  // a long row: tiny from the right
+    check_report("look", output_of({"look", "sphere:100", "--size", "64", "--json", "-", "--camera-position", "0,0,0.2"}, 1));
+    check_report("look", output_of({"look", "sphere:100", "--size", "64", "--json", "-", "--perspective", "--view", "front"}));
+    check_report("look", output_of({"look", "sphere:2000", "--size", "64", "--json", "-", "--certify", "8", "--certify-views", "5"}, 1));
+    const TemporaryFolder folder;
+    write_contents(folder.file("empty.gltf"), R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
+    check_report("look", output_of({"look", folder.file("empty.gltf"), "--size", "64", "--json", "-"}, 1));
+}
+
 TEST_CASE("schema: the report of view has the keys that its schema describes", "[cli][schema]") {
     RunSettings settings;
     settings.environment = {{"SDL_VIDEODRIVER", "dummy"}};

@@ -28,7 +28,7 @@ inline Certified certified(Scene scene, int width, int height, int least, std::s
         REQUIRE(shot);
         given.push_back(std::move(*shot));
     }
-    auto certificate = certify(out.job, renderer, std::move(given), {least, most_views});
+    auto certificate = certify(out.job, renderer, std::move(given), {least, most_views, {.picture = false}});
     if (!certificate) FAIL(certificate.error().message);
     out.certificate = std::move(*certificate);
     out.triangles = ray_triangles(out.job.scene());

@@ -35,7 +35,9 @@ Pair make_pair(Defect defect, Random& random) {
     if (defect == Defect::no_rib) wrong_plan.rib = false;
     if (defect == Defect::shifted_hole) {
         wrong_plan.shift.resize(static_cast<std::size_t>(plan.holes));
-        wrong_plan.shift[static_cast<std::size_t>(random.index(plan.holes))] = random.real(0.3, 3) * (random.chance(0.5) ? 1 : -1);
+        const auto hole = static_cast<std::size_t>(random.index(plan.holes));
+        const double side = random.chance(0.5) ? 1 : -1;
+        wrong_plan.shift[hole] = side * random.real(0.3, 3);
     }
     const Bracket sound = make_bracket(plan), wrong = make_bracket(wrong_plan);
     Pair pair{sound.mesh, wrong.mesh, {}, {}};

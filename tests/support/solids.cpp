@@ -13,7 +13,8 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 Vec3d at(Point2 p, double z) { return {p[0], p[1], z}; }
 
 Mat4 random_turn(Random& random) {
-    return rotation(Vec3f{random.real32(-1, 1), random.real32(-1, 1), random.real32(0.1, 1)}, random.real32(0, kTurn));
+    const Vec3f axis{random.real32(-1, 1), random.real32(-1, 1), random.real32(0.1, 1)};
+    return rotation(axis, random.real32(0, kTurn));
 }
 
 /// A sheet of n x n quads with a wave, open all around.
@@ -178,32 +179,30 @@ void move(Mesh& mesh, Vec3d by) {
     for (Vec3f& p : mesh.positions) p = to_float(to_double(p) + by);
 }
 
+// Numbers are drawn into variables: the order of a call's arguments differs between compilers.
+Mesh random_closed_solid(Random& random) {
+    const int kind = random.index(5), around = static_cast<int>(random.integer(5, 40)), across = static_cast<int>(random.integer(4, 10));
+    const double first = random.real(0, 1), second = random.real(0, 1);
+    const int teeth = std::max(5, around / 2);
+    if (kind == 0) return box_mesh({-1, -0.2 - 0.8 * first, -0.2 - 0.8 * second}, {1, 1, 1}, 1 + across % 4);
+    if (kind == 1) return prism_mesh(circle(1, around), {}, -0.1 - 0.9 * first, 1);
+    if (kind == 2) return torus_mesh(0.7, 0.05 + 0.25 * first, around, across);
+    if (kind == 3) return ball_mesh(1, across % 3);
+    return prism_mesh(gear_contour(0.75, 1, teeth), circle(0.1 + 0.5 * first, 4 * teeth), -0.3, -0.2 + 0.8 * second);
+}
+
 Mesh random_solid(Random& random) {
-    switch (random.index(9)) {
-        case 0:
-            return box_mesh({-1, -random.real(0.2, 1), -random.real(0.2, 1)}, {1, 1, 1}, static_cast<int>(random.integer(1, 4)));
-        case 1:
-            return prism_mesh(circle(1, static_cast<int>(random.integer(5, 40))), {}, -random.real(0.1, 1), 1);
-        case 2:
-            return torus_mesh(0.7, random.real(0.05, 0.3), static_cast<int>(random.integer(6, 24)),
-                              static_cast<int>(random.integer(4, 10)));
-        case 3:
-            return ball_mesh(1, static_cast<int>(random.integer(0, 2)));
-        case 4: {
-            const int teeth = static_cast<int>(random.integer(5, 16));
-            return prism_mesh(gear_contour(0.75, 1, teeth), circle(random.real(0.1, 0.6), 4 * teeth), -0.3, random.real(-0.2, 0.6));
-        }
-        case 5:
-            return holed(random, random.chance(0.5) ? ball_mesh(1, 2) : box_mesh({-1, -1, -1}, {1, 1, 1}, 4));
-        case 6:
-            return nested(random);
-        case 7: {  // a thin wall
-            Mesh wall = box_mesh({-1, -1, 0}, {1, 1, random.real(1e-4, 0.02)}, static_cast<int>(random.integer(1, 4)));
-            return random.chance(0.3) ? holed(random, wall) : wall;
-        }
-        default:
-            return wavy_sheet(random, static_cast<int>(random.integer(2, 10)));
+    const int kind = random.index(9), pieces = static_cast<int>(random.integer(2, 10));
+    const double thickness = random.real(1e-4, 0.02);
+    const bool other = random.chance(0.5);
+    if (kind == 0) return holed(random, other ? ball_mesh(1, 2) : box_mesh({-1, -1, -1}, {1, 1, 1}, 4));
+    if (kind == 1) return nested(random);
+    if (kind == 2) {  // a thin wall
+        const Mesh wall = box_mesh({-1, -1, 0}, {1, 1, thickness}, 1 + pieces % 4);
+        return other ? wall : holed(random, wall);
     }
+    if (kind == 3) return wavy_sheet(random, pieces);
+    return random_closed_solid(random);
 }
 
 Scene random_model(std::uint64_t seed) {

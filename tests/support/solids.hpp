@@ -50,7 +50,9 @@ void flip(Mesh& mesh);
 [[nodiscard]] Mesh without_triangles(const Mesh& mesh, std::span<const std::size_t> left_out);
 void move(Mesh& mesh, Vec3d by);
 
-/// A body of a random kind, 2 units across and up to a few hundred triangles.
+/// A box, cylinder, torus, ball or gear, closed, 2 units across and up to a few hundred triangles.
+[[nodiscard]] Mesh random_closed_solid(Random& random);
+/// The same, or one of other kinds: with holes, with another within it, a thin wall, an open sheet.
 [[nodiscard]] Mesh random_solid(Random& random);
 /// A model of one to five such bodies: beside each other, one within the other, holed, open, thin, mirrored, placed more than once,
 /// double-sided, transparent or not shown.

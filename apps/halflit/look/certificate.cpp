@@ -124,6 +124,7 @@ private:
             }
         }
         counts_.resize(found_.triangles.size(), 0);
+        most_.resize(found_.triangles.size(), 0);
     }
 
     Tally count(const ViewShot& shot) {
@@ -164,16 +165,20 @@ private:
         return static_cast<std::size_t>(std::count_if(
             tally.begin(), tally.end(), [&](const Seen& seen) { return seen.pixels >= limits_.least_pixels && is_wanted(seen.triangle); }));
     }
-    [[nodiscard]] bool is_done() const {
-        for (std::size_t i = 0; i < found_.triangles.size(); ++i)
-            if (is_wanted(i)) return false;
-        return true;
+    /// A triangle about which further directions say nothing new: it has been seen with enough pixels, or with as many as it can have.
+    [[nodiscard]] bool is_settled(std::size_t triangle) const {
+        if (!is_wanted(triangle) || most_[triangle] >= limits_.least_pixels) return true;
+        const bool was_seen = most_[triangle] > 0 || found_.triangles[triangle].pixels > 0;
+        return was_seen && length(placed_[triangle].area_normal) < limits_.least_pixels * finest_pixel_;
     }
 
     Result<void> look_around() {
         const float aspect = static_cast<float>(job_.width) / static_cast<float>(job_.height);
+        std::vector<std::uint32_t> open;  // triangles that are not settled
+        for (std::uint32_t i = 0; i < found_.triangles.size(); ++i)
+            if (is_wanted(i)) open.push_back(i);
         for (const GivenView& view : directions_around()) {
-            if (is_done()) return {};
+            if (open.empty()) return {};
             ViewSettings side{.azimuth_deg = view.azimuth_deg, .elevation_deg = view.elevation_deg, .orthographic = true};
             if (view.named && job_.scene().faces_back) side.azimuth_deg += 180.0f;
             const Camera camera = frame_scene(job_.scene(), job_.film.bounds, aspect, side);
@@ -186,6 +191,9 @@ private:
             };
             around_.push_back({view, camera, column(3), column(0), column(1), column(2), half_height * double{aspect}, half_height,
                                pixel * pixel, count(*shot)});
+            finest_pixel_ = std::min(finest_pixel_, pixel * pixel);
+            for (const Seen& seen : around_.back().tally) most_[seen.triangle] = std::max(most_[seen.triangle], seen.pixels);
+            std::erase_if(open, [&](std::uint32_t i) { return is_settled(i); });
         }
         return {};
     }
@@ -193,7 +201,7 @@ private:
     /// Draws a view of the whole model again, and keeps it.
     Result<void> add(Around& around) {
         around.used = true;
-        auto shot = draw_shot(job_, renderer_, around.view.name, around.camera, {.picture = false});
+        auto shot = draw_shot(job_, renderer_, around.view.name, around.camera, limits_.kept);
         if (!shot) return tl::unexpected(shot.error());
         const Tally tally = count(*shot);
         keep(std::move(*shot), tally);
@@ -285,30 +293,25 @@ private:
             if (found_.shots.size() >= limits_.most_views || tries++ >= kMostTries || around_.empty()) return {};
             const Around& around = best_direction(triangle);
             const Camera camera = close_up(triangle, around);
-            auto shot = draw_shot(job_, renderer_, fmt::format("detail {}", found_.shots.size() + 1), camera, {.picture = false});
+            const std::string name = fmt::format("detail {}", found_.shots.size() + 1);
+            auto shot = draw_shot(job_, renderer_, name, camera, {.picture = false});
             if (!shot) return tl::unexpected(shot.error());
             const Tally tally = count(*shot);
+            if (new_triangles(tally) == 0) continue;
+            if (limits_.kept.picture) shot = draw_shot(job_, renderer_, name, camera, limits_.kept);
+            if (!shot) return tl::unexpected(shot.error());
             shot->detail = true;
-            if (new_triangles(tally) > 0) keep(std::move(*shot), tally);
+            keep(std::move(*shot), tally);
         }
         return {};
     }
 
     /// No pixel showed it from any direction, of which some would have shown enough of it.
-    [[nodiscard]] bool is_hidden(std::size_t triangle) {
-        if (!were_seen_) mark_seen();
-        return !seen_at_all_[triangle] && directions_of(triangle) > 0;
-    }
+    [[nodiscard]] bool is_hidden(std::size_t triangle) const { return most_[triangle] == 0 && directions_of(triangle) > 0; }
     [[nodiscard]] int directions_of(std::size_t triangle) const {
         int directions = 0;
         for (const Around& around : around_) directions += expected(triangle, around) >= limits_.least_pixels ? 1 : 0;
         return directions;
-    }
-    void mark_seen() {
-        seen_at_all_.assign(found_.triangles.size(), false);
-        for (const Around& around : around_)
-            for (const Seen& seen : around.tally) seen_at_all_[seen.triangle] = true;
-        were_seen_ = true;
     }
 
     void settle(std::size_t i) {
@@ -320,7 +323,7 @@ private:
             triangle.status = TriangleStatus::less;
         else if (is_hidden(i))
             triangle.status = TriangleStatus::hidden, triangle.directions = directions_of(i);
-        else if (seen_at_all_[i])
+        else if (most_[i] > 0)
             triangle.status = TriangleStatus::less;  // in a picture that was not kept
     }
 
@@ -332,8 +335,8 @@ private:
     std::vector<PlacedTriangle> placed_;
     std::vector<std::int32_t> counts_;  ///< of the picture that is counted
     std::vector<Around> around_;
-    std::vector<bool> seen_at_all_;
-    bool were_seen_ = false;
+    std::vector<std::int32_t> most_;  ///< pixels that show each triangle in the best of the directions
+    double finest_pixel_ = 1e300;     ///< least area of a pixel in a direction
 };
 
 }  // namespace

@@ -36,7 +36,7 @@ struct LookedFrom {
 struct Certificate {
     int least = 0;                   ///< pixels that count as seen
     std::vector<LookedFrom> looked;  ///< directions that were looked from
-    std::vector<ViewShot> shots;     ///< the pictures, without colours: first those that were given, then those that were added
+    std::vector<ViewShot> shots;     ///< the pictures: first those that were given, then those that were added
     std::size_t added = 0;           ///< of the pictures
     std::vector<std::size_t> first;  ///< of each instance's triangles in `triangles`
     std::vector<TriangleView> triangles;
@@ -51,11 +51,12 @@ struct Certificate {
 struct CertificateLimits {
     int least_pixels = 4;         ///< from 1
     std::size_t most_views = 24;  ///< pictures in all, those that were given included
+    ShotPlanes kept{};            ///< of pictures that are added
 };
 
 /// Looks for pictures until every triangle is seen. given: the pictures that are there in any case. Others are added as long as they show
 /// more: views of the whole model by parallel rays from up to 126 directions, the one that shows most new triangles first, then close-ups
-/// of what is left.
+/// of what is left. The search ends early if no further direction can say anything new; what is hidden needs all of them.
 [[nodiscard]] Result<Certificate> certify(RenderJob& job, Renderer& renderer, std::vector<ViewShot> given, const CertificateLimits& limits);
 
 }  // namespace halflit::cli

@@ -40,20 +40,6 @@ void set_defaults(LookOptions& options) {
     }
 }
 
-/// Adds pictures to the shots until each triangle is seen.
-Result<Certificate> add_views(RenderJob& job, Renderer& renderer, Renderer& alone, const LookOptions& options,
-                              std::vector<ViewShot>& shots) {
-    auto certificate = certify(job, alone, shots, {options.certify, static_cast<std::size_t>(options.most_views)});
-    if (!certificate) return certificate;
-    for (std::size_t i = shots.size(); i < certificate->shots.size(); ++i) {
-        auto shot = draw_shot(job, renderer, certificate->shots[i].name, certificate->shots[i].camera, {});
-        if (!shot) return tl::unexpected(shot.error());
-        shot->detail = certificate->shots[i].detail;
-        shots.push_back(std::move(*shot));
-    }
-    return certificate;
-}
-
 /// The views that the flags name; one of the file's camera or the flags' otherwise.
 Result<std::vector<ViewShot>> draw_views(RenderJob& job, Renderer& renderer, const LookOptions& options) {
     std::vector<ViewShot> shots;
@@ -127,9 +113,11 @@ Result<LookResult> look(const LookOptions& given) {
     Renderer alone;  // keeps what the pictures' renderer has
     std::optional<Certificate> certificate;
     if (options.certify > 0) {
-        auto certified = add_views(job, renderer, alone, options, shots);
+        // Views are added until each triangle is seen.
+        auto certified = certify(job, renderer, std::move(shots), {options.certify, static_cast<std::size_t>(options.most_views), {}});
         if (!certified) return tl::unexpected(certified.error());
         certificate = std::move(*certified);
+        shots = std::move(certificate->shots);
     }
     const auto contents = count_parts(job, alone, shots, kMostAlone);
     if (!contents) return tl::unexpected(contents.error());

@@ -88,6 +88,9 @@ Json statuses_json(const Certificate& certificate, std::span<const int> instance
 
 Json certificate_json(const RenderJob& job, const Certificate& certificate) {
     Json json{{"pixels", certificate.least}, {"directions", certificate.looked.size()}, {"views_added", certificate.added}};
+    Json looked = Json::array();
+    for (const LookedFrom& from : certificate.looked) looked.push_back(from.name);
+    json["looked_from"] = std::move(looked);
     json["complete"] = certificate.complete();
     json["triangles"] = statuses_json(certificate, {});
     Json parts = Json::array();

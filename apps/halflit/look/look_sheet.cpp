@@ -29,15 +29,15 @@ std::array<Vec3d, 3> seen_axes(const RenderJob& job, const Camera& camera) {
 }
 
 /// Dimension lines of the model's box, below it and on its right, where the view looks along an axis: others would be foreshortened. seen:
-/// pixels that the lines keep clear of; points and lines are wider than their box.
-void draw_dimensions(const RenderJob& job, const ViewShot& shot, const PixelBox& seen, const ShownUnit& unit, Canvas& canvas) {
+/// pixels that the lines keep clear of; points and lines are wider than their box. Returns the pixels of the line below.
+PixelBox draw_dimensions(const RenderJob& job, const ViewShot& shot, const PixelBox& seen, const ShownUnit& unit, Canvas& canvas) {
     const Mat4& m = shot.camera.world_from_camera;
     const Bounds& bounds = job.film.bounds;
     const auto is_axis = [](const Vec4f& v) {
         constexpr float kAlmostOne = 1.0f - 1e-6f;
         return std::max({v.x * v.x, v.y * v.y, v.z * v.z}) > kAlmostOne;
     };
-    if (!shot.camera.orthographic || bounds.empty || !is_axis(m.c[0]) || !is_axis(m.c[1])) return;
+    if (!shot.camera.orthographic || bounds.empty || !is_axis(m.c[0]) || !is_axis(m.c[1])) return {};
     double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
     for (int k = 0; k < 8; ++k) {
         const Vec3d p =
@@ -56,21 +56,41 @@ void draw_dimensions(const RenderJob& job, const ViewShot& shot, const PixelBox&
         const double x = right + kClear + 0.5 * width_of_text(height, kMarks.text_size);
         draw_dimension(canvas, {x, y0}, {x, y1}, height, kMarks);
     }
+    const double high = kBeside + (x1 - x0 < 60 ? 21 : 7);  // a short line has its text below
+    return {static_cast<int>(x0), static_cast<int>(below), static_cast<int>(x1), static_cast<int>(below + high)};
+}
+
+/// No pixel of a box shows the model, or lies in the other box.
+bool is_free(const ViewShot& shot, const PixelBox& box, const PixelBox& other) {
+    if (box.x0 < other.x1 && other.x0 < box.x1 && box.y0 < other.y1 && other.y0 < box.y1) return false;
+    for (int y = std::max(box.y0, 0); y < std::min(box.y1, shot.height()); ++y) {
+        const auto row = shot.instance.begin() + std::ptrdiff_t{y} * shot.width();
+        for (int x = std::max(box.x0, 0); x < std::min(box.x1, shot.width()); ++x)
+            if (row[x] != 0) return false;
+    }
+    return true;
 }
 
 SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
     Canvas canvas(shot.picture);
-    const double width = shot.width(), height = shot.height();
-    // Axes and inset shrink with the picture, so that they stay clear of the model's margin.
-    const double axes = std::clamp(0.06 * width, 16.0, 26.0), inset = std::clamp(0.04 * width, 4.0, 16.0);
-    draw_dimensions(job, shot, content.box, unit, canvas);
-    const double middle = axes + 16.0;  // letters reach 14 pixels beyond the axes
-    if (height > 4 * middle) draw_axes(canvas, {middle, height - middle}, axes, seen_axes(job, shot.camera));
+    const int width = shot.width(), height = shot.height();
+    const PixelBox dimension = draw_dimensions(job, shot, content.box, unit, canvas);
+    // The axes stand in the lower left corner, the scale in the lower right one, where they cover nothing.
+    constexpr int kBeyondAxes = 16;  // pixels: letters, and from the edge
+    for (const int axis : {26, 18, 10}) {
+        const int side = 2 * (axis + kBeyondAxes);
+        if (2 * side > height || !is_free(shot, {0, height - side, side, height}, dimension)) continue;
+        draw_axes(canvas, {0.5 * side, height - 0.5 * side}, axis, seen_axes(job, shot.camera));
+        break;
+    }
     if (shot.camera.orthographic && !job.film.bounds.empty) {
         constexpr double kLongest = 0.2;  // of the picture's width
-        const double units = pixel_size(shot.camera, shot.width(), shot.height(), 1.0) * unit.per_drawn_unit;
-        const double bar = round_length(kLongest * width * units) / units;
-        draw_scale_bar(canvas, {width - inset - bar, height - inset}, kLongest * width, units, unit.name, kMarks);
+        constexpr int kHigh = 18;         // pixels of the bar and its text
+        const int inset = std::clamp(width / 30, 4, 16);
+        const double units = pixel_size(shot.camera, width, height, 1.0) * unit.per_drawn_unit;
+        const double left = width - inset - round_length(kLongest * width * units) / units;
+        if (is_free(shot, {static_cast<int>(left) - 4, height - inset - kHigh, width, height}, dimension))
+            draw_scale_bar(canvas, {left, static_cast<double>(height - inset)}, kLongest * width, units, unit.name, kMarks);
     }
     std::string note;
     for (const std::string& fault : content.faults.names()) note += (note.empty() ? "" : ", ") + fault;

@@ -129,7 +129,11 @@ void Canvas::put(int x, int y, const Image& picture) {
     for (std::int64_t j = first(y); j < end(y, picture.height, image_.height); ++j)
         for (std::int64_t i = first(x); i < end(x, picture.width, image_.width); ++i) {
             const std::uint8_t* from = &picture.rgba8[4 * static_cast<std::size_t>(j * picture.width + i)];
-            blend(static_cast<int>(x + i), static_cast<int>(y + j), {from[0], from[1], from[2]}, from[3]);
+            std::uint8_t* to = &image_.rgba8[4 * static_cast<std::size_t>((y + j) * image_.width + x + i)];
+            if (from[3] == 255)
+                std::copy_n(from, 4, to);
+            else
+                blend(static_cast<int>(x + i), static_cast<int>(y + j), {from[0], from[1], from[2]}, from[3]);
         }
 }
 
