@@ -121,7 +121,8 @@ TEST_CASE("views: wrong names, missing numbers, repeated sides and patterns with
     CHECK(has(message({"--view", "front,top", "-o", "x.png"}), "expected a place for the view's name, as {view}.png"));
     CHECK(has(message({"--view", "front,top", "-o", "{side}.png"}), "{view}"));
     CHECK(has(message({"--view", "front,top", "-o", "-"}), "need a file name"));
-    CHECK(has(message({"--view", "front", "--frames", "0-3", "-o", "{}.png"}), "--view and --camera all: cannot be combined with --frames or --turntable"));
+    CHECK(has(message({"--view", "front", "--frames", "0-3", "-o", "{}.png"}),
+              "--view and --camera all: cannot be combined with --frames or --turntable"));
     CHECK(has(message({"--view", "front,top", "--turntable", "4", "-o", "{}.png"}), "--view and --camera all: cannot be combined"));
     CHECK(has(message({"--view", "front", "--camera", "0"}), "--camera: cannot be combined with --view"));
     CHECK(has(message({"--view", "front", "--camera-position", "1,2,3"}), "--camera-position: cannot be combined"));
