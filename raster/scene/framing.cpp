@@ -305,6 +305,7 @@ Camera fitted(const FramedPoints& points, float aspect, const ViewSettings& view
     ViewFit seen(points.box().center, aspect, view);
     points.add_to(seen);
     seen.choose_distance(radius);
+    if (view.orthographic) return seen.camera(seen);  // parallel rays: the first pass has the extents
     ViewFit fit = seen;
     for (int pass = 1; pass < kMostPasses && (pass == 1 || !fit.is_centred()); ++pass) {
         fit = fit.centring();
@@ -334,6 +335,14 @@ Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
 Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
     const FpEnvironment environment_of_host;
     return fitted(FramedPoints(scene, bounds), aspect, view);
+}
+
+std::vector<Camera> frame_each(const Scene& scene, const Bounds& bounds, float aspect, std::span<const ViewSettings> views) {
+    const FpEnvironment environment_of_host;
+    const FramedPoints points(scene, bounds);
+    std::vector<Camera> cameras;
+    for (const ViewSettings& view : views) cameras.push_back(fitted(points, aspect, view));
+    return cameras;
 }
 
 std::vector<Camera> frame_views(const Scene& scene, const Bounds& bounds, float aspect, std::span<const ViewSettings> views) {

@@ -239,6 +239,36 @@ TEST_CASE("framing: a scene is fitted to its vertices, tightly for any shape", "
             }
 }
 
+TEST_CASE("framing: several views are those framed one by one, and by parallel rays the extents of the vertices", "[raster][camera]") {
+    Scene scene;
+    scene.meshes = {make_torus(2.0f, 0.3f, 48, 16), make_sphere(0.5f, 24, 16)};
+    scene.instances = {{0, rotation({0.5f, 0.5f, 0.5f, 0.5f})}, {1, translation({3, 1, -2})}};
+    const Bounds bounds = scene_bounds(scene);
+    constexpr float kAspect = 1.25f;
+    std::vector<ViewSettings> views;
+    for (const bool parallel : {false, true})
+        for (float azimuth = 0; azimuth < 360; azimuth += 40)
+            views.push_back({.azimuth_deg = azimuth, .elevation_deg = 0.3f * azimuth - 60.0f, .orthographic = parallel});
+    const std::vector<Camera> cameras = frame_each(scene, bounds, kAspect, views);
+    REQUIRE(cameras.size() == views.size());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        CHECK(cameras[i] == frame_scene(scene, bounds, kAspect, views[i]));
+        if (!views[i].orthographic) continue;
+        const Mat4& m = cameras[i].world_from_camera;
+        double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+        for (const Instance& instance : scene.instances)
+            for (const Vec3f& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
+                const Vec3f at = transform_point(instance.world_from_object, p);
+                for (std::size_t k = 0; k < 2; ++k) {
+                    const double x = double{m.c[k].x} * at.x + double{m.c[k].y} * at.y + double{m.c[k].z} * at.z;
+                    low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
+                }
+            }
+        const double half = std::max(0.5 * (high[1] - low[1]), 0.5 * (high[0] - low[0]) / kAspect) / 0.92;
+        CHECK(cameras[i].half_height == Approx(half).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("framing: azimuth goes round to the right, elevation goes up", "[raster][camera]") {
     const Bounds bounds = box({-1, -1, -1}, {1, 1, 1});
     const auto eye = [&](float azimuth, float elevation) {

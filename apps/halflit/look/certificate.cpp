@@ -177,11 +177,17 @@ private:
         std::vector<std::uint32_t> open;  // triangles that are not settled
         for (std::uint32_t i = 0; i < found_.triangles.size(); ++i)
             if (is_wanted(i)) open.push_back(i);
-        for (const GivenView& view : directions_around()) {
-            if (open.empty()) return {};
-            ViewSettings side{.azimuth_deg = view.azimuth_deg, .elevation_deg = view.elevation_deg, .orthographic = true};
-            if (view.named && job_.scene().faces_back) side.azimuth_deg += 180.0f;
-            const Camera camera = frame_scene(job_.scene(), job_.film.bounds, aspect, side);
+        if (open.empty()) return {};
+        const std::vector<GivenView> views = directions_around();
+        std::vector<ViewSettings> sides;
+        for (const GivenView& view : views) {
+            const float turn = view.named && job_.scene().faces_back ? 180.0f : 0.0f;
+            sides.push_back({.azimuth_deg = view.azimuth_deg + turn, .elevation_deg = view.elevation_deg, .orthographic = true});
+        }
+        const std::vector<Camera> cameras = frame_each(job_.scene(), job_.film.bounds, aspect, sides);
+        for (std::size_t v = 0; v < views.size() && !open.empty(); ++v) {
+            const GivenView& view = views[v];
+            const Camera& camera = cameras[v];
             auto shot = draw_shot(job_, renderer_, view.name, camera, {.picture = false, .first_sample = false});
             if (!shot) return tl::unexpected(shot.error());
             const double pixel = pixel_size(camera, job_.width, job_.height, 1.0), half_height = camera.half_height;

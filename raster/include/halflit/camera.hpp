@@ -99,6 +99,9 @@ inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},  
 [[nodiscard]] HALFLIT_API Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view = {});
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
+/// frame_scene() for each of several views: what is framed is found once.
+[[nodiscard]] HALFLIT_API std::vector<Camera> frame_each(const Scene& scene, const Bounds& bounds, float aspect,
+                                                         std::span<const ViewSettings> views);
 
 /// Several views of one scene that can be compared: all have the middle of its box in the middle of the picture, and one distance and, by
 /// parallel rays, one scale, which are the least that show the scene whole in each of them. Of the views, field of view, zoom, margin and
