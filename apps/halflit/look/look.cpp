@@ -5,10 +5,13 @@
 #include "apps/halflit/look/part_views.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/report/measures_json.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <future>
+#include <system_error>
 #include <utility>
 
 namespace halflit::cli {
@@ -37,6 +40,19 @@ void set_defaults(LookOptions& options) {
     if (!options.fit_px) {
         const PictureSize size = options.size.value_or(usual_size(options));
         options.fit_px = PictureSize{std::min(kMargin.width, size.width / 5), std::min(kMargin.height, size.height / 5)};
+    }
+}
+
+/// Measures the scene while it is drawn, within the time that this thread has. The scene must stay until the result is taken.
+std::future<Result<Json>> measure_beside(const RenderJob& job) {
+    const auto measure = [&job, end = TimeLimit::end()] {
+        const TimeLimit limit(end);
+        return measures_json(job);
+    };
+    try {
+        return std::async(std::launch::async, measure);
+    } catch (const std::system_error&) {
+        return std::async(std::launch::deferred, measure);  // no thread can be started
     }
 }
 
@@ -106,6 +122,7 @@ Result<LookResult> look(const LookOptions& given) {
     if (!made) return tl::unexpected(made.error());
     RenderJob& job = *made;
     for (const std::string& warning : job.warnings) print_warning(warning);
+    auto measuring = measure_beside(job);
     Renderer renderer;
     auto views = draw_views(job, renderer, options);
     if (!views) return tl::unexpected(views.error());
@@ -119,10 +136,10 @@ Result<LookResult> look(const LookOptions& given) {
         certificate = std::move(*certified);
         shots = std::move(certificate->shots);
     }
+    const auto measures = measuring.get();
+    if (!measures) return tl::unexpected(measures.error());
     const auto contents = count_parts(job, alone, shots, kMostAlone);
     if (!contents) return tl::unexpected(contents.error());
-    const auto measures = measures_json(job);
-    if (!measures) return tl::unexpected(measures.error());
     LookResult result;
     result.report = look_json(job, *measures, shots, *contents);
     if (!job.sections.cuts.empty()) result.report["sections"] = sections_json(job);
