@@ -47,6 +47,9 @@ Result<int> run_check(const GoldenOptions& options) {
     if (!is_free_or_begins_with(options.junit, '<'))
         return fail(ErrorCode::usage, "--junit: expected a new file or an earlier report, found '" + printable(options.junit) + "'");
     const std::string folder = options.report.empty() ? path_in(options.folder, "report") : options.report;
+    std::error_code error;
+    if (options.report.empty() && std::filesystem::is_symlink(folder, error))
+        return fail(ErrorCode::io, printable(folder) + ": is a symbolic link, which may lead out of the folder; -o names another folder");
     std::error_code ignored;
     if (fs::equivalent(folder, options.folder, ignored))
         return fail(ErrorCode::usage, "-o: expected another folder than the list's, found '" + printable(folder) + "'");

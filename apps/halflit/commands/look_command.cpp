@@ -20,9 +20,20 @@ struct LookFiles : LookOptions {
     std::string output, json;
 };
 
+std::vector<std::string> inputs_of(const LookResult& result, const LookOptions& options) {
+    std::vector<std::string> inputs = result.inputs;
+    for (const std::string& file : {options.environment, options.camera_file})
+        if (!file.empty()) inputs.push_back(file);
+    return inputs;
+}
+
 Result<int> look_and_write(const LookFiles& options) {
     const auto result = look(options);
     if (!result) return tl::unexpected(result.error());
+    for (const std::string& path : {options.output, options.json})
+        for (const std::string& input : inputs_of(*result, options))
+            if (!path.empty() && path != "-" && same_file(path, input))
+                return fail(ErrorCode::io, path + ": is read for the sheet and is not overwritten");
     if (result->sheet) {
         const auto format = output_format_of(options.output);
         if (!format) return tl::unexpected(format.error());

@@ -25,7 +25,7 @@ public:
     FarthestSearch(const Surface& to, double accuracy) : to_(to), accuracy_(accuracy) {}
 
     void add(const Triangle& piece, double at_most) {
-        check_();
+        check_time();
         const Vec3d middle = (((piece.a + piece.b) + piece.c)) * (1.0 / 3.0);
         const Surface::Nearest found = measure(middle);
         const double reach = std::max({length(piece.a - middle), length(piece.b - middle), length(piece.c - middle)});
@@ -82,7 +82,6 @@ private:
     double left_ = 0;  ///< largest bound of the pieces that were left
     std::uint64_t numbers_ = 0;
     std::priority_queue<Piece> pieces_;
-    TimeCheck check_;
 };
 
 }  // namespace

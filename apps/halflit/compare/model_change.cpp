@@ -16,9 +16,10 @@ constexpr double kNoDistance = 1e-9;   // of the diagonal: rounding of double, f
 
 bool same_measure(double a, double b) { return absolute(a - b) <= kSameMeasure * std::max(absolute(a), absolute(b)); }
 
-ModelNumbers numbers_of(const RenderJob& job, const Measures& measures, double scale) {
+/// up: of the files' axes that lengths are along.
+ModelNumbers numbers_of(const RenderJob& job, const Measures& measures, double scale, UpAxis up) {
     ModelNumbers out;
-    out.size = measures.size() * (1.0 / scale);
+    out.size = absolute(turned_back(measures.size(), up)) * (1.0 / scale);
     out.area = measures.area / (scale * scale);
     out.volume = measures.watertight ? measures.volume / ((scale * scale) * scale) : 0.0;
     out.triangles = measures.triangles, out.bodies = measures.bodies;
@@ -27,6 +28,12 @@ ModelNumbers numbers_of(const RenderJob& job, const Measures& measures, double s
     const Scene& scene = job.scene();
     out.parts = job.source.parts->list().size(), out.instances = scene.instances.size();
     out.materials = scene.materials.size(), out.textures = scene.textures.size();
+    for (const Instance& instance : scene.instances) {
+        if (!raster::counts_for_views(scene, instance)) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (mesh.topology == Topology::points) out.points += mesh.indices.size();
+        if (mesh.topology == Topology::lines) out.lines += mesh.indices.size() / 2;
+    }
     return out;
 }
 
@@ -58,12 +65,14 @@ std::optional<PartChange> change_of(const Measures& a, const Measures& b, double
                             (!a.watertight || same_measure(a.volume, b.volume));
     if (!same_shape) return PartChange::geometry;
     if (!apart(a.min, b.min) && !apart(a.max, b.max) && !apart(a.center, b.center)) return std::nullopt;
-    return PartChange::moved;
+    // Where it moved as a whole, its box and its centre moved alike; a turned part has another box.
+    const Vec3d shift = b.center - a.center;
+    return apart(a.min + shift, b.min) || apart(a.max + shift, b.max) ? PartChange::geometry : PartChange::moved;
 }
 
 /// Pairs parts by their names, and those of one name in their order. A single part has no need of a name.
 std::vector<ChangedPart> changed_parts(const std::vector<MeasuredPart>& a, const std::vector<MeasuredPart>& b, double tolerance,
-                                       double scale) {
+                                       double scale, UpAxis up) {
     std::vector<ChangedPart> out;
     const bool single = a.size() == 1 && b.size() == 1;
     std::map<std::string, std::vector<std::size_t>> named;
@@ -77,7 +86,7 @@ std::vector<ChangedPart> changed_parts(const std::vector<MeasuredPart>& a, const
         const Measures& now = b[places.back()].measures;
         places.pop_back();
         if (const auto change = change_of(part.measures, now, tolerance))
-            out.push_back({part.name, *change, (now.center - part.measures.center) * (1.0 / scale)});
+            out.push_back({part.name, *change, turned_back(now.center - part.measures.center, up) * (1.0 / scale)});
     }
     for (const MeasuredPart& part : b) {
         std::vector<std::size_t>& places = named[single ? "" : part.name];
@@ -119,7 +128,8 @@ bool ModelChange::differs() const {
     const auto apart = [&](double x, double y) { return absolute(x - y) > 2.0 * tolerance; };
     return !parts.empty() || (distance && distance->at_least() > tolerance) || !same_measure(a.area, b.area) ||
            !same_measure(a.volume, b.volume) || apart(a.size.x, b.size.x) || apart(a.size.y, b.size.y) || apart(a.size.z, b.size.z) ||
-           a.watertight != b.watertight || a.bodies != b.bodies || a.open_edges != b.open_edges || a.flipped_edges != b.flipped_edges;
+           a.watertight != b.watertight || a.bodies != b.bodies || a.open_edges != b.open_edges || a.flipped_edges != b.flipped_edges ||
+           a.points != b.points || a.lines != b.lines;
 }
 
 SeenTriangles::SeenTriangles(const Scene& scene) : scene_(scene), seen_(scene.instances.size()) {
@@ -167,11 +177,11 @@ Result<ModelChange> compare_models(const ModelPair& pair) {
     const auto a = measure_geometry(pair.a.scene()), b = measure_geometry(pair.b.scene());
     if (!a) return tl::unexpected(a.error());
     if (!b) return tl::unexpected(b.error());
-    out.a = numbers_of(pair.a, *a, scale), out.b = numbers_of(pair.b, *b, scale);
+    out.a = numbers_of(pair.a, *a, scale, pair.a.source.placement.up), out.b = numbers_of(pair.b, *b, scale, pair.a.source.placement.up);
     const auto parts_a = measured_parts(pair.a), parts_b = measured_parts(pair.b);
     if (!parts_a) return tl::unexpected(parts_a.error());
     if (!parts_b) return tl::unexpected(parts_b.error());
-    out.parts = changed_parts(*parts_a, *parts_b, out.tolerance * scale, scale);
+    out.parts = changed_parts(*parts_a, *parts_b, out.tolerance * scale, scale, pair.a.source.placement.up);
     out.too_many = std::max(drawn_triangles(pair.a.scene()), drawn_triangles(pair.b.scene())) > kMostComparedTriangles;
     if (!out.too_many) out.distance = distance_between(pair);
     return out;

@@ -12,13 +12,14 @@
 
 namespace halflit::cli {
 
-/// Of one model. Lengths are in the file's unit, along the axes of flags.
+/// Of one model. Lengths are in the file's unit, along its axes.
 struct ModelNumbers {
     Vec3d size{};
     double area = 0, volume = 0;
     std::uint64_t triangles = 0, bodies = 0, open_edges = 0, flipped_edges = 0, crowded_edges = 0;
     bool watertight = false;
     std::size_t parts = 0, instances = 0, materials = 0, textures = 0;
+    std::size_t points = 0, lines = 0;  ///< drawn
     /// Share of the area whose triangles are seen in none of the views. Empty: nothing has an area.
     std::optional<double> unseen_area{};
 };
@@ -32,7 +33,7 @@ struct ChangedPart {
     Vec3d shift{};  ///< of the centre of mass, for `moved` and `geometry`; file's unit
 };
 
-/// Distances in the file's unit. Points lie along the axes of flags.
+/// Distances in the file's unit. Points are in its coordinates.
 struct SurfaceDistance {
     FarthestPoint from_a, from_b;  ///< of A's surface to B's, and of B's to A's
     [[nodiscard]] double at_least() const;

@@ -28,8 +28,8 @@ struct ModelPair {
 
     /// Units of the drawn world in one of the file's.
     [[nodiscard]] double scale() const { return a.source.placement.scale; }
-    /// A point in the file's unit and place, along the axes of flags: turned so that y is up.
-    [[nodiscard]] Vec3d out(Vec3d p) const { return p * (1.0 / scale()) + a.source.placement.origin; }
+    /// A point in A's own coordinates.
+    [[nodiscard]] Vec3d out(Vec3d p) const { return a.source.placement.out(p); }
     [[nodiscard]] double diagonal() const { return 2.0 * bounds.radius(); }  ///< of the drawn world
 };
 

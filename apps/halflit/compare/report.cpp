@@ -37,11 +37,16 @@ Json numbers_json(const ModelNumbers& n) {
             {"instances", n.instances},
             {"materials", n.materials},
             {"textures", n.textures},
+            {"points", n.points},
+            {"lines", n.lines},
             {"unseen_area_share", n.unseen_area ? number(*n.unseen_area) : Json(nullptr)}};
 }
 
+/// A bound that stays one when it is rounded to six digits.
+double outward(double at_most) { return at_most * (1.0 + 1e-5); }
+
 Json farthest_json(const FarthestPoint& found) {
-    return {{"at_least", number(found.at_least)}, {"at_most", number(found.at_most)}, {"point", point(found.point)}};
+    return {{"at_least", number(found.at_least)}, {"at_most", number(outward(found.at_most))}, {"point", point(found.point)}};
 }
 
 Json view_json(const ViewChange& view, double scale) {
@@ -65,13 +70,13 @@ struct Row {
 
 std::vector<Row> rows_of(const Comparison& c) {
     const ModelNumbers &a = c.models.a, &b = c.models.b;
-    const auto size = [](const ModelNumbers& n) {
-        return fmt::format("{} x {} x {}", number_text(n.size.x), number_text(n.size.y), number_text(n.size.z));
+    const auto size = [](const ModelNumbers& n) { return fmt::format("{:.7g} x {:.7g} x {:.7g}", n.size.x, n.size.y, n.size.z); };
+    const auto volume = [](const ModelNumbers& n) {
+        return n.watertight ? fmt::format("{:.7g}", n.volume) : std::string("not watertight");
     };
-    const auto volume = [](const ModelNumbers& n) { return n.watertight ? number_text(n.volume) : std::string("not watertight"); };
     const auto unseen = [](const ModelNumbers& n) { return n.unseen_area ? percent(*n.unseen_area) : std::string("none"); };
     std::vector<Row> rows{{"size" + (c.unit.empty() ? "" : ", " + c.unit), size(a), size(b)},
-                          {"area", number_text(a.area), number_text(b.area)},
+                          {"area", fmt::format("{:.7g}", a.area), fmt::format("{:.7g}", b.area)},
                           {"volume", volume(a), volume(b)},
                           {"watertight", yes_or_no(a.watertight), yes_or_no(b.watertight)}};
     const auto count = [&](const char* name, std::uint64_t x, std::uint64_t y) {
@@ -144,6 +149,10 @@ std::string unseen_text(const Comparison& c) {
         text +=
             fmt::format(" The distance between the surfaces does not depend on views: no point of one is farther than {} from the other.",
                         with_unit(c.models.distance->at_most(), c.unit));
+    text += fmt::format(
+        " Colours that differ by at most {} codes count as equal; faces that are turned show in the numbers of edges alone.", c.max_codes);
+    if (c.models.a.points + c.models.a.lines + c.models.b.points + c.models.b.lines > 0)
+        text += " Points and lines are compared by pixels and by their number.";
     return text;
 }
 
@@ -217,7 +226,7 @@ Json comparison_json(const Comparison& c) {
     json["distance"] = nullptr;
     if (const auto& d = c.models.distance)
         json["distance"] = {{"at_least", number(d->at_least())},
-                            {"at_most", number(d->at_most())},
+                            {"at_most", number(outward(d->at_most()))},
                             {"from_a", farthest_json(d->from_a)},
                             {"from_b", farthest_json(d->from_b)},
                             {"tolerance", number(c.models.tolerance)}};

@@ -50,7 +50,7 @@ Keys of the report:
 | `cropped` | the model reaches beyond the picture | drop `--zoom` and a placed camera |
 | `cut` | the model reaches before or behind the camera's planes | move the camera away |
 | `inside` | the camera is inside the model's box | move the camera away |
-| `tiny` | the model fills less than a sixth of the picture | `--fit 20`, or look for a part that lies far away |
+| `tiny` | what is seen spans less than a sixth of the picture's width, and of its height | `--fit 20`, or look for a part that lies far away |
 
 ## Recipes
 )";
@@ -62,9 +62,9 @@ struct Recipe {
 /// The lines are run by a test, with small models of these names.
 constexpr Recipe kRecipes[] = {
     {"Check a part that was generated",
-     "Look, and read `good`, `measures.size` and `measures.watertight`. A part to be printed must be watertight, with as many bodies as "
-     "you "
-     "meant. Then certify: views are added until each triangle was seen, or is known to be hidden.",
+     "Look, and read `good`, `measures.size` and `measures.watertight`. A part to be printed must be watertight, of positive volume (a "
+     "negative one is inside out), without `crowded_edges` (faces that are there twice). `bodies` counts closed surfaces: a cavity is one "
+     "too. Then certify: views are added until each triangle was seen, or is known to be hidden.",
      "halflit look part.stl --json look.json -o look.png\n"
      "halflit look part.stl --json certificate.json --certify 4"},
     {"Find hidden parts",
@@ -72,17 +72,16 @@ constexpr Recipe kRecipes[] = {
      "halflit look assembly.gltf --json look.json -o look.png --hidden-edges dashed\n"
      "halflit look assembly.gltf --json cut.json -o cut.png --section x=50%"},
     {"Measure a cross-section",
-     "`sections` has the area of each cut, in the file's unit. `z=50%` keeps what is below the middle, `-z=50%` what is above.",
+     "`sections` has the area of each cut, in the file's unit. Axes are those of the file. `z=50%` keeps what is below the middle, "
+     "`--section=-z=50%` what is above.",
      "halflit look part.stl --json cut.json -o cut.png --section z=50%"},
     {"Compare two versions",
-     "Draw both by one camera, so that equal places have equal pixels, and compare the pictures. The exit code of diff is 1 if they "
-     "differ. "
-     "Compare the measures too.",
-     "halflit old.stl old.png --camera-position 40,30,60 --camera-target 5,5,5\n"
-     "halflit new.stl new.png --camera-position 40,30,60 --camera-target 5,5,5\n"
-     "halflit diff old.png new.png -o difference.png\n"
-     "halflit info old.stl --json\n"
-     "halflit info new.stl --json"},
+     "The page and the report say what changed: pixels by what changed in them, parts, measures, and the distance of the surfaces. The "
+     "exit "
+     "code is 1 if they differ. Read `unseen` too: a change that moves no surface, such as a face that is turned, changes no pixel, but "
+     "the "
+     "numbers of edges.",
+     "halflit compare old.stl new.stl -o changes --json compare.json --markdown comment.md"},
     {"Look from where it matters", "A side by its name, or by azimuth and elevation in degrees: 0,0 is the front, 90,0 the right side.",
      "halflit look part.stl -o sides.png --view back,bottom,left --json sides.json\n"
      "halflit part.stl close.png --view 30,40 --zoom 2"},

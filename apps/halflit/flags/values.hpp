@@ -36,7 +36,7 @@ inline constexpr std::size_t kMib = std::size_t{1} << 20;
 /// A plane that cuts the scene, as --section gives it.
 struct GivenSection {
     std::string text{};     ///< as given
-    Vec3d normal{};         ///< towards what is removed, in the file's world with y up
+    Vec3d normal{};         ///< towards what is removed, along the axes of the file
     double offset = 0.0;    ///< keeps dot(normal, p) <= offset; of a share the share, from 0 to 1
     bool is_share = false;  ///< the normal is an axis or its opposite, and the plane lies at this share of the scene's size along the axis
 };

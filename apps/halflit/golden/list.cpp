@@ -334,6 +334,11 @@ Result<RenderOptions> golden_options(const GoldenList& list, const GoldenScene& 
         if (!path) return tl::unexpected(path.error());
         options->environment = std::move(*path);
     }
+    if (!options->camera_file.empty()) {
+        auto path = confined(list.folder, options->camera_file, "--camera-file");
+        if (!path) return tl::unexpected(path.error());
+        options->camera_file = std::move(*path);
+    }
     for (std::string& folder : options->load.allow_external) {
         auto path = confined(list.folder, folder, "--allow-external");
         if (!path) return tl::unexpected(path.error());

@@ -362,6 +362,10 @@ std::size_t Certificate::count(TriangleStatus status, std::span<const int> insta
 }
 
 Result<Certificate> certify(RenderJob& job, Renderer& renderer, std::vector<ViewShot> given, const CertificateLimits& limits) {
+    constexpr std::uint64_t kMostTriangles = 1u << 24;  // a record of each, over all instances
+    if (job.prepared->triangle_count() > kMostTriangles)
+        return fail(ErrorCode::limit, fmt::format("--certify: expected at most {} triangles over all instances, found {}", kMostTriangles,
+                                                  job.prepared->triangle_count()));
     return Certifier(job, renderer, std::move(given), limits).run();
 }
 

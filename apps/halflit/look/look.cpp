@@ -30,6 +30,7 @@ void set_defaults(LookOptions& options) {
     const auto given = [&](std::string_view name) {
         return std::find(options.given_settings.begin(), options.given_settings.end(), name) != options.given_settings.end();
     };
+    if (!given("shadows")) options.settings.shadows = ShadowMode::off;  // their borders look like edges
     if (!given("edges")) options.settings.edges = EdgeChoice::feature;
     if (options.settings.background_linear == usual_settings().background_linear)
         if (const auto paper = parse_color(kPaper)) options.settings.background_linear = *paper;
@@ -91,6 +92,16 @@ std::string certificate_line(const Certificate& certificate, std::size_t views) 
 
 std::vector<FlagGroup> look_flags(LookOptions& o) {
     auto groups = render_flags(o, kViewSize);
+    for (FlagGroup& group : groups)
+        for (Flag& flag : group.flags) {
+            const auto tell_default = [&](const char* name, const std::string& usual, const char* own) {
+                const std::string text = "(default " + usual + ")";
+                if (const std::size_t at = flag.help.find(text); flag.names == name && at != std::string::npos)
+                    flag.help.replace(at, text.size(), fmt::format("(default {})", own));
+            };
+            tell_default("--edges", "none", "feature");
+            tell_default("--shadows", "soft-split", "off");
+        }
     groups.insert(
         groups.begin(),
         {"Sheet",

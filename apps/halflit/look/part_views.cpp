@@ -17,6 +17,7 @@ class AloneScene {
 public:
     explicit AloneScene(RenderJob& job) : job_(job) {
         for (const Instance& instance : job.scene().instances) visible_.push_back(instance.visible);
+        changes_.changed_instances.reserve(visible_.size());  // so that the end needs no memory
     }
     ~AloneScene() {
         (void)show([](std::size_t) { return true; });
@@ -27,14 +28,14 @@ public:
     /// Shows instances that were visible and that `wanted` says true of.
     template <class Wanted>
     Result<void> show(const Wanted& wanted) {
-        SceneChanges changes;
+        changes_.changed_instances.clear();
         for (std::size_t i = 0; i < visible_.size(); ++i) {
             Instance& instance = job_.scene().instances[i];
             const bool visible = visible_[i] && wanted(i);
-            if (visible != instance.visible) instance.visible = visible, changes.changed_instances.push_back(i);
+            if (visible != instance.visible) instance.visible = visible, changes_.changed_instances.push_back(i);
         }
-        if (changes.changed_instances.empty()) return {};
-        return job_.prepared->update(changes, job_.timed_execution());
+        if (changes_.changed_instances.empty()) return {};
+        return job_.prepared->update(changes_, job_.timed_execution());
     }
     Result<void> show_part(int part) {
         return show([&](std::size_t i) { return job_.source.parts->of_instance(i) == part; });
@@ -43,6 +44,7 @@ public:
 private:
     RenderJob& job_;
     std::vector<bool> visible_;
+    SceneChanges changes_;
 };
 
 ViewContent content_of(const RenderJob& job, const ViewShot& shot) {

@@ -62,7 +62,14 @@ Incoming parse_message(std::string_view line) {
 
 std::shared_ptr<MessageQueue> MessageQueue::start(int fd) {
     auto queue = std::make_shared<MessageQueue>();
-    std::thread([queue, fd] { queue->read_all(fd); }).detach();  // it may wait for input when the process ends
+    // The thread may wait for input when the process ends. Without memory, input ends.
+    std::thread([queue, fd] {
+        try {
+            queue->read_all(fd);
+        } catch (const std::bad_alloc&) {
+        }
+        queue->end();
+    }).detach();
     return queue;
 }
 
@@ -148,6 +155,9 @@ void MessageQueue::read_all(int fd) {
         }
     }
     end_line();
+}
+
+void MessageQueue::end() {
     const std::lock_guard lock(mutex_);
     ended_ = true;
     changed_.notify_all();

@@ -45,6 +45,7 @@ public:
 
 private:
     void read_all(int fd);
+    void end();
     void push(Incoming message);
     void take_line(std::string_view line);
     void cancel(const nlohmann::json& notification);

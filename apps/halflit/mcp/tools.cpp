@@ -68,10 +68,31 @@ struct LookCall : LookOptions {
     std::string view_of_pixel;
 };
 
+/// What measures tell of the surface.
+std::vector<std::string> notes_of_measures(const Json& measures) {
+    std::vector<std::string> notes;
+    if (!measures.is_object()) return notes;
+    const auto edges = [&](const char* key, const char* words) {
+        const auto n = measures[key].get<std::uint64_t>();
+        return n > 0 ? fmt::format(", {} {}", n, words) : std::string();
+    };
+    if (measures["watertight"] == false)
+        notes.push_back("FAULT: not watertight" + edges("open_edges", "open edges") + edges("flipped_edges", "flipped edges") +
+                        edges("crowded_edges", "edges of more than two triangles") + ": it has no volume");
+    else if (measures["volume"].is_number() && measures["volume"].get<double>() < 0.0)
+        notes.emplace_back("FAULT: inside out: the volume is negative, so all faces look inwards");
+    else if (measures["crowded_edges"].get<std::uint64_t>() > 0)
+        notes.push_back("WARNING:" + edges("crowded_edges", "edges of more than two triangles").substr(1) +
+                        ": bodies touch, or faces are there twice; the volume may count twice");
+    return notes;
+}
+
 std::vector<std::string> notes_of(const LookResult& result) {
     std::vector<std::string> notes;
     for (const std::string& fault : result.faults) notes.push_back("FAULT: " + fault);
-    if (notes.empty()) notes.emplace_back("No faults: every view shows the whole model, and every part is seen.");
+    if (notes.empty()) notes.emplace_back("No faults of the views: every view shows the whole model, and every part is seen.");
+    for (const std::string& note : notes_of_measures(result.report["measures"])) notes.push_back(note);
+    for (const Json& warning : result.report["warnings"]) notes.push_back("WARNING: " + warning.get<std::string>());
     if (!result.certificate.empty()) notes.push_back(result.certificate);
     return notes;
 }
@@ -193,9 +214,9 @@ Result<ToolAnswer> run_measure_tool(const RenderOptions& options) {
     if (!parts) return tl::unexpected(parts.error());
     ToolAnswer answer;
     if (measures->is_null())
-        answer.notes.emplace_back("FAULT: there are no triangles to measure");
-    else if ((*measures)["watertight"] == false)
-        answer.notes.emplace_back("FAULT: not watertight: it has no volume");
+        answer.notes.emplace_back("FAULT: nothing was measured: there are no triangles, or more than 2^25 by drawing meshes again");
+    for (const std::string& note : notes_of_measures(*measures)) answer.notes.push_back(note);
+    for (const std::string& warning : job->warnings) answer.notes.push_back("WARNING: " + warning);
     answer.report = {{"scene", job->source.name}, {"measures", std::move(*measures)}, {"parts", std::move(*parts)}};
     return answer;
 }

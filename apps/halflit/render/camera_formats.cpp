@@ -169,11 +169,11 @@ Result<GivenCamera> lens_of_frame(CameraValues& values) {
     if (!fl_x && !angle_x) return fail(ErrorCode::bad_input, "expected fl_x or camera_angle_x");
     if (!*size) {
         if (!angle_x) return fail(ErrorCode::bad_input, "w, h: expected the size of the pictures beside fl_x");
-        GivenCamera square;  // as the data sets without a size are
-        square.lens.fov_y_rad = static_cast<float>(*angle_x);
-        square.lens.aspect = 1.0f;
-        square.lens.near_z = 0.0f;
-        return square;
+        GivenCamera wide;
+        wide.lens.fov_y_rad = static_cast<float>(*angle_x);
+        wide.horizontal_fov = true;
+        wide.lens.near_z = 0.0f;
+        return wide;
     }
     const double width = (*size)->width, height = (*size)->height;
     const auto focal_length = [](double side, double angle) {

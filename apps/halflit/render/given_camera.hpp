@@ -21,6 +21,7 @@ struct GivenCamera {
     /// an orthographic one are chosen with the scene.
     Camera lens{};
     std::optional<PictureSize> size{};  ///< of the picture that it is made for
+    bool horizontal_fov = false;        ///< lens.fov_y_rad is the horizontal angle; pixels are square
 };
 
 /// Cameras of a file.

@@ -149,7 +149,22 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
 /// The cameras of --camera-file that are drawn: one, or all. The picture has the size of the first, unless --size says another.
 Result<void> use_given_cameras(RenderJob& job, const RenderOptions& options, PictureRequest& request) {
     const CameraFile& file = *options.cameras;
-    const auto place = [&](const GivenCamera& camera) { return placed(camera, job.source.placement, job.film.bounds); };
+    const PictureSize usual = request.size.value_or(request.usual_size);
+    const auto place = [&](GivenCamera camera) {
+        if (camera.horizontal_fov) {
+            const SinCos half = sin_cos(0.5 * static_cast<double>(camera.lens.fov_y_rad));
+            const double across = half.sin / half.cos, up = across * usual.height / usual.width;
+            camera.lens.sides =
+                ViewSides{static_cast<float>(-across), static_cast<float>(across), static_cast<float>(-up), static_cast<float>(up)};
+        }
+        return placed(camera, job.source.placement, job.film.bounds);
+    };
+    if (options.size && file.cameras[0].size) {
+        const PictureSize made = *file.cameras[0].size;
+        if (std::int64_t{options.size->width} * made.height != std::int64_t{options.size->height} * made.width)
+            job.warnings.push_back(fmt::format("{}: made for {}x{} pixels; --size {}x{} stretches it", file.path, made.width, made.height,
+                                               options.size->width, options.size->height));
+    }
     std::size_t first = 0;
     if (options.camera != kAllCameras) {
         const auto found = find_camera(file, options.camera.value_or(""));

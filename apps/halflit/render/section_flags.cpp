@@ -1,5 +1,6 @@
 #include "apps/halflit/render/section_flags.hpp"
 
+#include "halflit/up_axis.hpp"
 #include "sh/vec3d.hpp"
 
 #include <fmt/core.h>
@@ -14,9 +15,16 @@ constexpr std::size_t kMostSectionLines = 10;
 
 /// The plane in the world that is drawn. bounds: of the scene before it is cut.
 CutPlane drawn_plane(const GivenSection& given, const Placement& place, const Bounds& bounds) {
-    if (!given.is_share) return {given.normal, (given.offset - dot(given.normal, place.origin)) * place.scale};
-    const Vec3d low = to_double(bounds.min), size = to_double(bounds.max) - low;
-    return {given.normal, dot(given.normal, low + size * given.offset)};
+    const Vec3d normal = turned_upright(given.normal, place.up);
+    if (!given.is_share) return {normal, (given.offset - dot(normal, place.origin)) * place.scale};
+    // The share counts along the file's axis, whose ends a quarter turn may exchange.
+    const Vec3d low = to_double(bounds.min), high = to_double(bounds.max), along = turned_upright(absolute(given.normal), place.up);
+    const auto end = [&](bool upper) {
+        const auto of = [&](double axis, double a, double b) { return axis * ((axis > 0.0) == upper ? b : a); };
+        return of(along.x, low.x, high.x) + of(along.y, low.y, high.y) + of(along.z, low.z, high.z);
+    };
+    const double place_along = end(false) + (end(true) - end(false)) * given.offset;
+    return {normal, dot(normal, along) * place_along};
 }
 
 void tell_sections(RenderJob& job, const RenderOptions& options) {

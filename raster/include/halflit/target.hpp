@@ -32,7 +32,8 @@ struct Target {
     std::size_t row_bytes = 0, linear_row_bytes = 0;  ///< strides of `pixels` and `linear`
 
     /// What each pixel's first sample shows; blended surfaces and the background do not count. Aligned to 4 bytes.
-    float* depth = nullptr;  ///< distance along the view axis, world units; infinity where nothing is
+    float* depth =
+        nullptr;  ///< distance along the view axis, world units; of lines, which lie before their surfaces, less; infinity: nothing
     /// Three floats: the vertices' normals in world space, interpolated and of unit length; on the back of a double-sided material turned
     /// around. Normal maps do not count. 0 where nothing is, or where the mesh has no normals.
     float* normal = nullptr;
