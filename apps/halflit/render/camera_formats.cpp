@@ -171,6 +171,7 @@ Result<GivenCamera> lens_of_frame(CameraValues& values) {
         if (!angle_x) return fail(ErrorCode::bad_input, "w, h: expected the size of the pictures beside fl_x");
         GivenCamera wide;
         wide.lens.fov_y_rad = static_cast<float>(*angle_x);
+        wide.lens.aspect = 1.0f;  // as the pictures of such data sets are, unless --size says otherwise
         wide.horizontal_fov = true;
         wide.lens.near_z = 0.0f;
         return wide;

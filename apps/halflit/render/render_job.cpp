@@ -151,7 +151,7 @@ Result<void> use_given_cameras(RenderJob& job, const RenderOptions& options, Pic
     const CameraFile& file = *options.cameras;
     const PictureSize usual = request.size.value_or(request.usual_size);
     const auto place = [&](GivenCamera camera) {
-        if (camera.horizontal_fov) {
+        if (camera.horizontal_fov && options.size) {
             const SinCos half = sin_cos(0.5 * static_cast<double>(camera.lens.fov_y_rad));
             const double across = half.sin / half.cos, up = across * usual.height / usual.width;
             camera.lens.sides =
