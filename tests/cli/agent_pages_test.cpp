@@ -66,6 +66,7 @@ TEST_CASE("agent pages: the command lines of docs/SKILL.md work", "[cli][help]")
         ++lines;
     }
     CHECK(lines > 10);
-    for (const char* const name : {"look.png", "look.json", "certificate.json", "cut.png", "compare.json", "comment.md", "sides.png", "close.png"})
+    for (const char* const name :
+         {"look.png", "look.json", "certificate.json", "cut.png", "compare.json", "comment.md", "sides.png", "close.png"})
         CHECK(std::filesystem::file_size(folder.file(name)) > 0);
 }
