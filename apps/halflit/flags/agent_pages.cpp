@@ -50,7 +50,7 @@ Keys of the report:
 | `cropped` | the model reaches beyond the picture | drop `--zoom` and a placed camera |
 | `cut` | the model reaches before or behind the camera's planes | move the camera away |
 | `inside` | the camera is inside the model's box | move the camera away |
-| `tiny` | what is seen spans less than a sixth of the picture's width, and of its height | `--fit 20`, or look for a part that lies far away |
+| `tiny` | what is seen spans less than a sixth of the picture's width and height | `--fit 20`, or look for a part far away |
 
 ## Recipes
 )";
