@@ -180,7 +180,7 @@ bool is_usual(const ViewSettings& view) {
 }  // namespace
 
 ViewSettings front_view(const Scene& scene, ViewSettings view) {
-    if (scene.faces_back && is_usual(view)) view.azimuth_deg += 180.0f;
+    if (is_usual(view)) view.azimuth_deg += front_azimuth_deg(scene);
     return view;
 }
 

@@ -56,7 +56,7 @@ Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera&
     }
     const auto drawn = drawing.visible.render(scene, {}, camera, plain, target, silent, isa, {});
     if (!drawn) return tl::unexpected<Error>(drawn.error());
-    const SeenTriangles seen{width, height, part, drawing.instance.data(), drawing.triangle.data()};
+    const PixelTriangles seen{width, height, part, drawing.instance.data(), drawing.triangle.data()};
     const std::vector<EdgeLine> lines = edge_lines(drawing.edges, camera, seen, plan.written, settings, executor);
     paint_lines(lines, settings, plan.written, output, shading::shade_kernels(isa), executor);
     return {};

@@ -1,8 +1,10 @@
 #include "halflit/fragment_planes.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/placed_point.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/fp_environment.hpp"
+#include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
 #include <optional>
@@ -37,24 +39,19 @@ std::optional<Vec3d> place_of(const Scene& scene, std::uint32_t instance_number,
         if (vertex >= mesh->positions.size()) return {};
         sum = sum + to_double(mesh->positions[vertex]) * weight[k];
     }
-    const Mat4& m = instance->world_from_object;
-    return axis(m, 0) * sum.x + axis(m, 1) * sum.y + axis(m, 2) * sum.z + axis(m, 3);
+    return raster::placed_in_double(instance->world_from_object, sum);
 }
 
-/// A point of a picture, pixels from its upper left corner.
+/// A point of a picture, pixels from its middle: x to the right, y down.
 struct PicturePoint {
     double x, y;
 };
 
 /// Where a point of the world is in a picture; none: it is not before the camera.
 std::optional<PicturePoint> project(const Mat4& clip_from_world, PictureSize size, Vec3d p) {
-    const auto row = [&](float Vec4f::*of) {
-        const auto& c = clip_from_world.c;
-        return double{c[0].*of} * p.x + double{c[1].*of} * p.y + double{c[2].*of} * p.z + double{c[3].*of};
-    };
-    const double w = row(&Vec4f::w);
-    if (!(w > 0.0)) return {};
-    return PicturePoint{0.5 * size.width * (row(&Vec4f::x) / w), -0.5 * size.height * (row(&Vec4f::y) / w)};
+    const raster::ClipPlace at = raster::clip_place(clip_from_world, p);
+    if (!(at.w > 0.0)) return {};
+    return PicturePoint{0.5 * size.width * (at.x / at.w), -0.5 * size.height * (at.y / at.w)};
 }
 
 /// Pixels. A larger motion, or one that is not a number, is none.

@@ -103,7 +103,7 @@ int32_t halflit_view_by_name(const halflit_scene* scene, const char* name, halfl
         std::string names;
         for (const NamedView& named : kNamedViews) {
             if (named.name == name) {
-                given->azimuth_deg = named.azimuth_deg + (scene->scene.faces_back ? 180.0f : 0.0f);
+                given->azimuth_deg = named.azimuth_deg + front_azimuth_deg(scene->scene);
                 given->elevation_deg = named.elevation_deg;
                 return write_struct(*given, to, "halflit_view");
             }

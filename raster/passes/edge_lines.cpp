@@ -1,6 +1,7 @@
 #include "raster/passes/edge_lines.hpp"
 
 #include "raster/view/projection.hpp"
+#include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
 #include <algorithm>
@@ -35,13 +36,11 @@ bool cut(EdgePoint& a, EdgePoint& b, const Distance& distance) {
 
 class EdgeView {
 public:
-    EdgeView(const ModelEdges& edges, const Camera& camera, const SeenTriangles& seen)
+    EdgeView(const ModelEdges& edges, const Camera& camera, const PixelTriangles& seen)
         : edges_(edges), seen_(seen), orthographic_(camera.orthographic) {
-        const Mat4 m = clip_from_world(camera, static_cast<float>(seen.width) / static_cast<float>(seen.height));
-        for (std::size_t i = 0; i < 4; ++i) columns_[i] = {m.c[i].x, m.c[i].y, m.c[i].w};
-        const Vec4f &back = camera.world_from_camera.c[2], &eye = camera.world_from_camera.c[3];
-        back_ = {back.x, back.y, back.z};
-        eye_ = {eye.x, eye.y, eye.z};
+        clip_from_world_ = clip_from_world(camera, static_cast<float>(seen.width) / static_cast<float>(seen.height));
+        back_ = axis(camera.world_from_camera, 2);
+        eye_ = axis(camera.world_from_camera, 3);
         depth_ = depth_map(camera, static_cast<float>(seen.width) / static_cast<float>(seen.height));
         Vec3d low{1e300, 1e300, 1e300}, high = low * -1.0;
         for (const Vec3d& p : edges.places()) {
@@ -109,8 +108,8 @@ public:
 
 private:
     [[nodiscard]] EdgePoint point(Vec3d p) const {
-        const Vec3d clip = ((columns_[0] * p.x + columns_[1] * p.y) + columns_[2] * p.z) + columns_[3];
-        return {clip.x, clip.y, depth_.z_scale * dot(back_, p - eye_) + depth_.z_offset, clip.z, p};
+        const ClipPlace clip = clip_place(clip_from_world_, p);
+        return {clip.x, clip.y, depth_.z_scale * dot(back_, p - eye_) + depth_.z_offset, clip.w, p};
     }
     static int pixel(double window, int size) { return static_cast<int>(window > 0.0 ? window < size ? window : size - 1 : 0.0); }
     /// Beyond the near plane.
@@ -155,9 +154,9 @@ private:
     }
 
     const ModelEdges& edges_;
-    SeenTriangles seen_;
+    PixelTriangles seen_;
     bool orthographic_;
-    Vec3d columns_[4];  // rows x, y and w of clip_from_world
+    Mat4 clip_from_world_;
     Vec3d back_, eye_;
     DepthMap depth_{};
     double size_ = 1.0, skin_ = 0.0;
@@ -306,7 +305,7 @@ Region seen_region(const Region& drawn, double edge_width, int width, int height
     return {x, y, std::min(drawn.x + drawn.width + beside, width) - x, std::min(drawn.y + drawn.height + beside, height) - y};
 }
 
-std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const SeenTriangles& seen, const Region& drawn,
+std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const PixelTriangles& seen, const Region& drawn,
                                  const Settings& settings, Executor& executor) {
     const EdgeView view(edges, camera, seen);
     const bool hidden_too = settings.hidden_edges == HiddenEdges::dashed;

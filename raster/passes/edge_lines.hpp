@@ -20,7 +20,7 @@ struct EdgeLine {
 };
 
 /// What each pixel's middle shows, as Target has it, in a part of a picture.
-struct SeenTriangles {
+struct PixelTriangles {
     int width, height;  ///< of the whole picture
     Region region;      ///< the part
     const std::uint32_t *instance, *triangle;
@@ -34,7 +34,7 @@ struct SeenTriangles {
 /// for among those that are seen in the point's pixel and in the eight around, and over the surface from these; so what is less than a
 /// pixel wide may hide nothing. The triangles of the edge itself never hide it. Where a line begins to be hidden is found to a sixteenth of
 /// a pixel.
-[[nodiscard]] std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const SeenTriangles& seen,
+[[nodiscard]] std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const PixelTriangles& seen,
                                                const Region& drawn, const Settings& settings, Executor& executor);
 
 }  // namespace halflit::raster

@@ -2,9 +2,11 @@
 
 #include "raster/detail/guarded.hpp"
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/placed_point.hpp"
 #include "raster/scene/section_cap.hpp"
 #include "raster/scene/section_hatch.hpp"
 #include "raster/scene/section_mesh.hpp"
+#include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -156,7 +158,7 @@ private:
         bool above = true, below = true;
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3f p{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z};
-            const double d = plane.distance(raster::placed_point(place, p));
+            const double d = plane.distance(raster::placed_in_double(place, p));
             above = above && d > 2.0 * plane.tolerance;
             below = below && d < -2.0 * plane.tolerance;
         }

@@ -1,5 +1,6 @@
 #include "raster/scene/section_cap.hpp"
 
+#include "raster/scene/placed_point.hpp"
 #include "raster/scene/section_fill.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
@@ -49,7 +50,7 @@ private:
 double area_of(const Mesh& mesh, const Mat4& world_from_object) {
     double doubled = 0.0;
     for (std::size_t i = 0; i + 3 <= mesh.indices.size(); i += 3) {
-        const auto corner = [&](std::size_t c) { return placed_point(world_from_object, mesh.positions[mesh.indices[i + c]]); };
+        const auto corner = [&](std::size_t c) { return placed_in_double(world_from_object, mesh.positions[mesh.indices[i + c]]); };
         const Vec3d a = corner(0);
         doubled += length(cross(corner(1) - a, corner(2) - a));
     }

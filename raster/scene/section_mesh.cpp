@@ -1,5 +1,6 @@
 #include "raster/scene/section_mesh.hpp"
 
+#include "raster/scene/placed_point.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
@@ -86,11 +87,6 @@ private:
 
 }  // namespace
 
-Vec3d placed_point(const Mat4& m, Vec3f p) {
-    const Vec3d v = to_double(p);
-    return ((axis(m, 0) * v.x + axis(m, 1) * v.y) + axis(m, 2) * v.z) + axis(m, 3);
-}
-
 MeshCut::MeshCut(const Mesh& mesh, const Mat4& world_from_object, const UnitPlane& plane)
     : mesh_(mesh),
       place_(world_from_object),
@@ -101,7 +97,7 @@ MeshCut::MeshCut(const Mesh& mesh, const Mat4& world_from_object, const UnitPlan
     TimeCheck check;
     for (std::size_t i = 0; i < distances_.size(); ++i) {
         check();
-        const double d = distances_[i] = plane.distance(placed_point(place_, mesh.positions[i]));
+        const double d = distances_[i] = plane.distance(placed_in_double(place_, mesh.positions[i]));
         sides_[i] = !shading::finite(d)              ? Side::none
                     : d > plane.tolerance            ? Side::removed
                     : absolute(d) <= plane.tolerance ? Side::on
@@ -128,7 +124,7 @@ double MeshCut::share(std::uint32_t kept, std::uint32_t removed) const {
     return sides_[kept] == Side::on ? 0.0 : -from / (to - from);
 }
 
-CutPoint MeshCut::vertex(std::uint32_t v) const { return {placed_point(place_, mesh_.positions[v]), mesh_.positions[v]}; }
+CutPoint MeshCut::vertex(std::uint32_t v) const { return {placed_in_double(place_, mesh_.positions[v]), mesh_.positions[v]}; }
 
 CutPoint MeshCut::cut_point(std::uint32_t kept, std::uint32_t removed) const {
     const double t = share(kept, removed);

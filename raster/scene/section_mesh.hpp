@@ -16,9 +16,6 @@ struct UnitPlane {
     [[nodiscard]] double distance(Vec3d p) const { return dot(normal, p) - offset; }
 };
 
-/// Position in the world, in double.
-[[nodiscard]] Vec3d placed_point(const Mat4& world_from_object, Vec3f p);
-
 /// Where the plane cuts an edge. It depends on the places of the edge's ends alone: triangles that share the edge get the same bits.
 struct CutPoint {
     Vec3d world;

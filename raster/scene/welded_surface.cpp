@@ -1,5 +1,6 @@
 #include "raster/scene/welded_surface.hpp"
 
+#include "raster/scene/placed_point.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
@@ -16,10 +17,6 @@ bool finite_as_float(Vec3d p) {
 }
 
 }  // namespace
-
-Vec3d placed_in_double(const Mat4& m, Vec3f p) {
-    return ((axis(m, 0) * double{p.x} + axis(m, 1) * double{p.y}) + axis(m, 2) * double{p.z}) + axis(m, 3);
-}
 
 void WeldedSurface::add(const Mesh& mesh, const Mat4& world_from_object) {
     if (mesh.topology != Topology::triangles) return;

@@ -9,9 +9,6 @@
 
 namespace halflit::raster {
 
-/// A point of a mesh in the world.
-[[nodiscard]] Vec3d placed_in_double(const Mat4& world_from_object, Vec3f p);
-
 class WeldedSurface {
 public:
     /// Adds a mesh's triangles. Vertices are one if their world positions, computed in double, are equal. Triangles of a mirrored

@@ -34,4 +34,16 @@ struct DepthMap {
 /// less.
 [[nodiscard]] Mat4 clip_from_world(const Camera& camera, float aspect);
 
+/// Clip coordinates of a point of the world, without its depth, in double.
+struct ClipPlace {
+    double x, y, w;
+};
+[[nodiscard]] inline ClipPlace clip_place(const Mat4& clip_from_world, Vec3d p) {
+    const auto row = [&](float Vec4f::*of) {
+        const auto& c = clip_from_world.c;
+        return ((double{c[0].*of} * p.x + double{c[1].*of} * p.y) + double{c[2].*of} * p.z) + double{c[3].*of};
+    };
+    return {row(&Vec4f::x), row(&Vec4f::y), row(&Vec4f::w)};
+}
+
 }  // namespace halflit::raster

@@ -1,5 +1,6 @@
 #include "tests/cli/mcp_server.hpp"
 
+#include "tests/cli/small_models.hpp"
 #include "tests/fuzz/base64.hpp"
 #include "tests/support/catch.hpp"
 
@@ -123,18 +124,7 @@ std::string decoded_base64(const std::string& text) {
     return {bytes->begin(), bytes->end()};
 }
 
-std::string box_stl(double x, double y, double z) {
-    std::ostringstream text;
-    text << "solid box\n";
-    for (const auto& triangle : kBox) {
-        text << "facet normal 0 0 0\nouter loop\n";
-        for (const unsigned c : triangle)
-            text << "vertex " << ((c & 1) != 0 ? x : 0) << ' ' << ((c & 2) != 0 ? y : 0) << ' ' << ((c & 4) != 0 ? z : 0) << '\n';
-        text << "endloop\nendfacet\n";
-    }
-    text << "endsolid box\n";
-    return text.str();
-}
+std::string box_stl(double x, double y, double z) { return stl_of(box({0, 0, 0}, {x, y, z})); }
 
 std::string assembly_gltf() {
     std::vector<std::uint8_t> bytes;

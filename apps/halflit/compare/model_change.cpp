@@ -1,6 +1,7 @@
 #include "apps/halflit/compare/model_change.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 
@@ -153,9 +154,8 @@ std::optional<double> SeenTriangles::unseen_area() const {
         if (seen_[i].empty()) continue;
         const Instance& instance = scene_.instances[i];
         const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(instance.mesh)];
-        const auto& c = instance.world_from_object.c;
-        const auto column = [&](std::size_t k) { return Vec3d{c[k].x, c[k].y, c[k].z}; };
-        const Vec3d x = column(0), y = column(1), z = column(2);
+        const Mat4& m = instance.world_from_object;
+        const Vec3d x = axis(m, 0), y = axis(m, 1), z = axis(m, 2);
         const auto turned = [&](Vec3d v) { return (x * v.x + y * v.y) + z * v.z; };
         for (std::size_t t = 0; t < seen_[i].size(); ++t) {
             check();

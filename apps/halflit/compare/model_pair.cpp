@@ -69,14 +69,9 @@ void warn_of_units(ModelPair& pair) {
 Result<ModelPair> load_pair(const CompareOptions& options) {
     CompareOptions flags = options;
     flags.view.orthographic = !options.fov_given;
-    const auto& given = options.given_settings;
-    if (std::find(given.begin(), given.end(), "shadows") == given.end()) flags.settings.shadows = ShadowMode::off;  // no change of shape
+    if (!options.has_given("shadows")) flags.settings.shadows = ShadowMode::off;  // no change of shape
     flags.size = options.size.value_or(kCompareSize);
-    if (flags.film.views.empty()) {
-        const auto usual = parse_views("front,right,top,iso");
-        if (!usual) return tl::unexpected(usual.error());
-        flags.film.views = *usual;
-    }
+    if (flags.film.views.empty()) flags.film.views = usual_views();
     flags.scene = options.a;
     auto a = make_render_job(flags, kCompareSize);
     if (!a) return tl::unexpected(a.error());

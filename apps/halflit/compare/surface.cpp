@@ -1,7 +1,9 @@
 #include "apps/halflit/compare/surface.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/placed_point.hpp"
 #include "raster/scene/triangle_distance.hpp"
+#include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 
@@ -42,12 +44,8 @@ Surface::Surface(const Scene& scene) {
     for (const Instance& instance : scene.instances) {
         if (!raster::counts_for_views(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const auto& c = instance.world_from_object.c;
-        const auto column = [&](std::size_t i) { return Vec3d{c[i].x, c[i].y, c[i].z}; };
-        const Vec3d x = column(0), y = column(1), z = column(2), origin = column(3);
         const auto vertex = [&](std::uint32_t index) {
-            const Vec3f p = mesh.positions[index];
-            return ((x * double{p.x} + y * double{p.y}) + z * double{p.z}) + origin;
+            return raster::placed_in_double(instance.world_from_object, mesh.positions[index]);
         };
         for (std::size_t t = 0; t < triangles_of(mesh); ++t) {
             check();

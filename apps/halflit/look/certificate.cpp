@@ -1,6 +1,7 @@
 #include "apps/halflit/look/certificate.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/placed_point.hpp"
 #include "raster/scene/welded_surface.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
@@ -100,7 +101,7 @@ private:
             found_.first.push_back(found_.triangles.size());
             const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
             const Material* const material = raster::material_of(scene, instance);
-            const bool clear = material != nullptr && (material->alpha_mode == AlphaMode::blend || material->transmission > 0.0f);
+            const bool clear = material != nullptr && material->is_layer();
             const bool drawn = raster::counts_for_views(scene, instance) && !clear;
             const double side = determinant3(instance.world_from_object) < 0.0 ? -1.0 : 1.0;
             TimeCheck check;
@@ -181,8 +182,8 @@ private:
         const std::vector<GivenView> views = directions_around();
         std::vector<ViewSettings> sides;
         for (const GivenView& view : views) {
-            const float turn = view.named && job_.scene().faces_back ? 180.0f : 0.0f;
-            sides.push_back({.azimuth_deg = view.azimuth_deg + turn, .elevation_deg = view.elevation_deg, .orthographic = true});
+            const float front_deg = view.named ? front_azimuth_deg(job_.scene()) : 0.0f;
+            sides.push_back({.azimuth_deg = view.azimuth_deg + front_deg, .elevation_deg = view.elevation_deg, .orthographic = true});
         }
         const std::vector<Camera> cameras = frame_each(job_.scene(), job_.film.bounds, aspect, sides);
         for (std::size_t v = 0; v < views.size() && !open.empty(); ++v) {
@@ -191,11 +192,8 @@ private:
             auto shot = draw_shot(job_, renderer_, view.name, camera, {.picture = false, .first_sample = false});
             if (!shot) return tl::unexpected(shot.error());
             const double pixel = pixel_size(camera, job_.width, job_.height, 1.0), half_height = camera.half_height;
-            const auto column = [&](std::size_t i) {
-                const Vec4f& c = camera.world_from_camera.c[i];
-                return Vec3d{c.x, c.y, c.z};
-            };
-            around_.push_back({view, camera, column(3), column(0), column(1), column(2), half_height * double{aspect}, half_height,
+            const Mat4& m = camera.world_from_camera;
+            around_.push_back({view, camera, axis(m, 3), axis(m, 0), axis(m, 1), axis(m, 2), half_height * double{aspect}, half_height,
                                pixel * pixel, count(*shot)});
             finest_pixel_ = std::min(finest_pixel_, pixel * pixel);
             for (const Seen& seen : around_.back().tally) most_[seen.triangle] = std::max(most_[seen.triangle], seen.pixels);

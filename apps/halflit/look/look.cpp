@@ -27,16 +27,13 @@ PictureSize usual_size(const LookOptions& options) { return options.certify > 0 
 
 /// What a sheet of views has unless the flags say otherwise.
 void set_defaults(LookOptions& options) {
-    const auto given = [&](std::string_view name) {
-        return std::find(options.given_settings.begin(), options.given_settings.end(), name) != options.given_settings.end();
-    };
-    if (!given("shadows")) options.settings.shadows = ShadowMode::off;  // their borders look like edges
-    if (!given("edges")) options.settings.edges = EdgeChoice::feature;
+    if (!options.has_given("shadows")) options.settings.shadows = ShadowMode::off;  // their borders look like edges
+    if (!options.has_given("edges")) options.settings.edges = EdgeChoice::feature;
     if (options.settings.background_linear == usual_settings().background_linear)
         if (const auto paper = parse_color(kPaper)) options.settings.background_linear = *paper;
     options.view.orthographic = !options.perspective;
     if (options.camera || options.camera_position || (options.whole_scene && options.film.views.empty())) return;  // one view
-    if (options.film.views.empty()) options.film.views = *parse_views("front,right,top,iso");
+    if (options.film.views.empty()) options.film.views = usual_views();
     options.whole_scene = true;
     if (!options.fit_px) {
         const PictureSize size = options.size.value_or(usual_size(options));
@@ -119,7 +116,7 @@ std::vector<FlagGroup> look_flags(LookOptions& o) {
     return groups;
 }
 
-Result<RenderJob> look_job(LookOptions options) {
+Result<RenderJob> look_job(LookOptions& options) {
     if (options.film.turntable > 0 || options.film.frames) return fail(ErrorCode::usage, "look: expected views, found moving pictures");
     if (options.settings.region.width > 0) return fail(ErrorCode::usage, "--region: expected whole pictures in a sheet");
     set_defaults(options);
@@ -128,8 +125,7 @@ Result<RenderJob> look_job(LookOptions options) {
 
 Result<LookResult> look(const LookOptions& given) {
     LookOptions options = given;
-    set_defaults(options);
-    auto made = look_job(given);
+    auto made = look_job(options);
     if (!made) return tl::unexpected(made.error());
     RenderJob& job = *made;
     for (const std::string& warning : job.warnings) print_warning(warning);

@@ -35,8 +35,8 @@ struct LookResult {
 };
 
 /// The scene with the views that the flags ask for, or else front, right, top and iso. Fails (usage) where they ask for moving pictures or
-/// a part of a picture.
-[[nodiscard]] Result<RenderJob> look_job(LookOptions options);
+/// a part of a picture. Writes what a sheet has by default into the options.
+[[nodiscard]] Result<RenderJob> look_job(LookOptions& options);
 
 /// Draws the views, counts what they show, and lays out the sheet. Warnings of the scene are printed.
 [[nodiscard]] Result<LookResult> look(const LookOptions& options);

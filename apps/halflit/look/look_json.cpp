@@ -27,7 +27,7 @@ Json part_json(const RenderJob& job, std::size_t number, std::span<const ViewSho
         triangles += triangles_of(job.scene().meshes[static_cast<std::size_t>(instance.mesh)]);
         visible |= instance.visible;
         const Material* const material = raster::material_of(job.scene(), instance);
-        transparent &= material != nullptr && (material->alpha_mode == AlphaMode::blend || material->transmission > 0.0f);
+        transparent &= material != nullptr && material->is_layer();
     }
     Json seen_in = Json::array();
     std::int64_t pixels = 0;

@@ -3,6 +3,7 @@
 #include "apps/halflit/report/marks.hpp"
 #include "apps/halflit/report/measures_json.hpp"
 #include "apps/halflit/report/sheet_page.hpp"
+#include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
 #include <fmt/core.h>
@@ -18,12 +19,11 @@ constexpr MarkStyle kMarks{.color = {0x2b, 0x33, 0x3d}, .background = {0xec, 0xe
 /// The axes of the file as the camera sees them.
 std::array<Vec3d, 3> seen_axes(const RenderJob& job, const Camera& camera) {
     const Mat4& m = camera.world_from_camera;
-    const auto column = [&](std::size_t i) { return Vec3d{m.c[i].x, m.c[i].y, m.c[i].z}; };
     std::array<Vec3d, 3> seen;
     const Vec3d of_file[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d axis = turned_upright(of_file[i], job.source.placement.up);
-        seen[i] = {dot(axis, column(0)), dot(axis, column(1)), dot(axis, column(2))};
+        const Vec3d of_world = turned_upright(of_file[i], job.source.placement.up);
+        seen[i] = {dot(of_world, axis(m, 0)), dot(of_world, axis(m, 1)), dot(of_world, axis(m, 2))};
     }
     return seen;
 }

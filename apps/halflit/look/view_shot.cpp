@@ -1,6 +1,7 @@
 #include "apps/halflit/look/view_shot.hpp"
 
 #include "raster/view/projection.hpp"
+#include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
 #include <utility>
@@ -25,31 +26,24 @@ Result<ViewShot> draw_shot(RenderJob& job, Renderer& renderer, std::string name,
     if (wanted.normal) shot.normal.resize(3 * pixels), target.normal = shot.normal.data();
     Settings settings = job.settings;
     if (!wanted.first_sample) settings.samples = 1;
-    auto drawn = renderer.render(*job.prepared, job.light, camera, settings, target, job.timed_execution());
+    const auto drawn = renderer.render(*job.prepared, job.light, camera, settings, target, job.timed_execution());
     if (!drawn) return fail(drawn.error().code, job.source.name + ": " + drawn.error().message);
-    shot.warnings = std::move(drawn->warnings);
     return shot;
 }
 
 double pixel_size(const Camera& camera, int width, int height, double distance) {
     const Mat4& m = camera.world_from_camera;
-    const auto column = [&](std::size_t i) { return Vec3d{m.c[i].x, m.c[i].y, m.c[i].z}; };
-    const Vec3d middle = column(3) - column(2) * distance;
+    const Vec3d middle = axis(m, 3) - axis(m, 2) * distance;
     const double across =
-        window_point(camera, width, height, middle + column(0) * distance).x - window_point(camera, width, height, middle).x;
+        window_point(camera, width, height, middle + axis(m, 0) * distance).x - window_point(camera, width, height, middle).x;
     return distance / across;
 }
 
 Vec3d window_point(const Camera& camera, int width, int height, Vec3d p) {
-    const Mat4 m = raster::clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height));
-    const auto row = [&](float Vec4f::*r) {
-        return ((double{m.c[0].*r} * p.x + double{m.c[1].*r} * p.y) + double{m.c[2].*r} * p.z) + double{m.c[3].*r};
-    };
-    const double w = row(&Vec4f::w);
-    const Vec4f &back = camera.world_from_camera.c[2], &eye = camera.world_from_camera.c[3];
-    const Vec3d to_eye = Vec3d{eye.x, eye.y, eye.z} - p;
-    return {(row(&Vec4f::x) / w * 0.5 + 0.5) * width, (0.5 - row(&Vec4f::y) / w * 0.5) * height,
-            (to_eye.x * back.x + to_eye.y * back.y) + to_eye.z * back.z};
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    const raster::ClipPlace at = raster::clip_place(raster::clip_from_world(camera, aspect), p);
+    const Mat4& m = camera.world_from_camera;
+    return {(at.x / at.w * 0.5 + 0.5) * width, (0.5 - at.y / at.w * 0.5) * height, dot(axis(m, 3) - p, axis(m, 2))};
 }
 
 }  // namespace halflit::cli

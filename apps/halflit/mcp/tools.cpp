@@ -126,8 +126,7 @@ Result<ToolAnswer> run_explain_tool(LookCall call) {
     auto job = look_job(call);
     if (!job) return tl::unexpected(job.error());
     std::vector<std::string> names;
-    for (const GivenView& view : call.film.views.empty() ? *parse_views("front,right,top,iso") : call.film.views)
-        names.push_back(view.name);
+    for (const GivenView& view : call.film.views.empty() ? usual_views() : call.film.views) names.push_back(view.name);
     std::size_t index = 0;
     if (!call.view_of_pixel.empty()) {
         const auto found = std::find(names.begin(), names.end(), call.view_of_pixel);

@@ -125,6 +125,8 @@ Result<std::vector<GivenView>> parse_views(std::string_view text) {
     return views;
 }
 
+std::vector<GivenView> usual_views() { return *parse_views("front,right,top,iso"); }
+
 Result<std::string> frame_name(const std::string& pattern, const std::string& scene, const FilmOptions& film, std::int64_t number) {
     bool numbered = false;
     auto name = fill_pattern(pattern, "{}, {:04}, {view}, {stem} or {folder}", [&](std::string_view word) -> std::optional<std::string> {

@@ -40,6 +40,9 @@ struct GivenView {
 /// Names of kNamedViews, and pairs of numbers AZIMUTH,ELEVATION, with commas between them.
 [[nodiscard]] Result<std::vector<GivenView>> parse_views(std::string_view text);
 
+/// Those of a sheet and of a comparison where the flags name none: front, right, top and iso.
+[[nodiscard]] std::vector<GivenView> usual_views();
+
 struct FilmOptions {
     std::vector<GivenView> views;  ///< each has a picture; a single one is not moving
     std::optional<FrameRange> frames;

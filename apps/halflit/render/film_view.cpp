@@ -1,6 +1,8 @@
 #include "apps/halflit/render/film_view.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/placed_point.hpp"
+#include "sh/mat4.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 
@@ -63,13 +65,8 @@ void add_vertices(const Scene& scene, Profile& profile) {
     for (const Instance& instance : scene.instances) {
         if (!raster::counts_for_views(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const auto& c = instance.world_from_object.c;
-        const auto column = [](const Vec4f& v) { return Vec3d{v.x, v.y, v.z}; };
-        const Vec3d x = column(c[0]), y = column(c[1]), z = column(c[2]), origin = column(c[3]);
-        for (const std::uint32_t index : mesh.indices) {
-            const Vec3f p = mesh.positions[index];
-            profile.add(((x * double{p.x} + y * double{p.y}) + z * double{p.z}) + origin);
-        }
+        for (const std::uint32_t index : mesh.indices)
+            profile.add(raster::placed_in_double(instance.world_from_object, mesh.positions[index]));
     }
 }
 

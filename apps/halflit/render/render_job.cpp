@@ -137,10 +137,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
     job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
-    const auto is_given = [&](std::string_view name) {
-        return std::find(options.given_settings.begin(), options.given_settings.end(), name) != options.given_settings.end();
-    };
-    if (!is_given("point_size"))
+    if (!options.has_given("point_size"))
         job.settings.point_size = options.kept_view ? static_cast<float>(options.kept_view->point_size) : choice->settings.point_size;
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return {};
@@ -420,7 +417,7 @@ std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& o
     std::vector<ViewSettings> sides;
     for (const GivenView& given : options.film.views) {
         ViewSettings& side = sides.emplace_back(options.view);
-        side.azimuth_deg = given.azimuth_deg + (given.named && scene.faces_back ? 180.0f : 0.0f);
+        side.azimuth_deg = given.azimuth_deg + (given.named ? front_azimuth_deg(scene) : 0.0f);
         side.elevation_deg = given.elevation_deg;
         side.any_side = !options.fit_px;
     }

@@ -16,9 +16,11 @@
 #include "halflit/light.hpp"
 #include "halflit/settings.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace halflit::cli {
@@ -59,6 +61,10 @@ struct RenderOptions {
     bool hatch = true;                                    ///< lines on caps
     bool ground = false;                                  ///< add a ground that only takes shadow
 
+    /// True if the flag of a setting was given.
+    [[nodiscard]] bool has_given(std::string_view setting) const {
+        return std::find(given_settings.begin(), given_settings.end(), setting) != given_settings.end();
+    }
     /// A camera of the flags, not of the file.
     [[nodiscard]] bool own_view() const { return whole_scene || fov_given || camera_position || camera_orbit; }
     /// Some parts are drawn alone, and no camera of the file is named: the view is of these parts.

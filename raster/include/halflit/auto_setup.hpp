@@ -62,6 +62,9 @@ struct PictureChoice : AutoSetup {
 /// wide, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
+/// Azimuth of the side that the scene faces (Scene::faces_back), degrees: what named views are relative to.
+[[nodiscard]] inline float front_azimuth_deg(const Scene& scene) { return scene.faces_back ? 180.0f : 0.0f; }
+
 /// `view`, or with the usual angles, the same from the side that the scene faces (Scene::faces_back).
 [[nodiscard]] HALFLIT_API ViewSettings front_view(const Scene& scene, ViewSettings view);
 
