@@ -82,12 +82,18 @@ std::optional<Incoming> MessageQueue::next() {
         waiting_.pop_front();
         waiting_bytes_ -= message.bytes;
         changed_.notify_all();
-        if (!message.cancelled) return message;
+        if (message.cancelled) continue;
+        // The message runs from here on: a cancellation finds it among those that wait, or running.
+        const auto id = message.message.is_object() ? message.message.find("id") : message.message.end();
+        running_ = id != message.message.end() ? *id : nlohmann::json();
+        cancelled_ = false;
+        return message;
     }
 }
 
 void MessageQueue::begin_call(const nlohmann::json& id) {
     const std::lock_guard lock(mutex_);
+    if (running_ == id) return;  // since next()
     running_ = id;
     cancelled_ = false;
 }

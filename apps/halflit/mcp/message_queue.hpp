@@ -35,10 +35,10 @@ public:
     /// Starts the thread. It ends with the input; the object lives as long.
     [[nodiscard]] static std::shared_ptr<MessageQueue> start(int fd);
 
-    /// Waits for a message that was not cancelled; none: the input has ended.
+    /// Waits for a message that was not cancelled, which runs from then on; none: the input has ended.
     [[nodiscard]] std::optional<Incoming> next();
 
-    /// From now on the call of this id runs. A cancellation sets cancelled().
+    /// From now on the call of this id runs, one of a batch if it is not that of next(). A cancellation sets cancelled().
     void begin_call(const nlohmann::json& id);
     void end_call();
     [[nodiscard]] bool cancelled() const { return cancelled_; }
