@@ -2,6 +2,7 @@
 
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/scene/placed_point.hpp"
 #include "raster/scene/section_fill.hpp"
 #include "raster/scene/section_mesh.hpp"
 #include "sh/mat4.hpp"
@@ -83,7 +84,7 @@ Mesh bumpy(std::mt19937& random, float radius, int slices, float depth) {
 
 Vec3d corner(const Scene& scene, const Instance& instance, std::size_t i) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    return placed_point(instance.world_from_object, mesh.positions[mesh.indices[i]]);
+    return placed_in_double(instance.world_from_object, mesh.positions[mesh.indices[i]]);
 }
 
 /// Volume inside of what is visible, caps included, by the divergence theorem.
