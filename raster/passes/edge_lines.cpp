@@ -11,7 +11,8 @@
 namespace halflit::raster {
 namespace {
 
-constexpr double kSkin = 1e-5;  ///< of the model's size: a surface so near before a line does not hide it
+constexpr double kSkin = 1e-5;    ///< of the model's size: a surface so near before a line does not hide it
+constexpr double kEdgeOn = 1e-7;  ///< sine of the angle to the viewer's ray below which a triangle is a line: it covers and faces nothing
 
 /// A point in clip space, z from 0 at the far plane to w at the near plane, and in the world.
 struct EdgePoint {
@@ -51,22 +52,26 @@ public:
         skin_ = kSkin * size_;
     }
 
-    [[nodiscard]] bool faces_viewer(std::uint32_t face) const {
+    /// 1: the triangle's front is seen, -1: its back, 0: its edge.
+    [[nodiscard]] int facing(std::uint32_t face) const {
         const std::uint32_t* const c = edges_.corners(face);
         const Vec3d a = edges_.places()[c[0]], n = cross(edges_.places()[c[1]] - a, edges_.places()[c[2]] - a);
-        return dot(n, orthographic_ ? back_ : eye_ - a) > 0.0;
+        const Vec3d to_eye = orthographic_ ? back_ : eye_ - a;
+        const double along = dot(n, to_eye);
+        if (is_edge_on(along, n, to_eye)) return 0;
+        return along > 0.0 ? 1 : -1;
     }
     /// The edge is a line of the drawing, seen or hidden.
     [[nodiscard]] bool is_line(const ModelEdge& edge, EdgeChoice choice) const {
         if (choice == EdgeChoice::all || edge.kind == EdgeKind::border) return true;
         if (choice == EdgeChoice::feature && edge.kind == EdgeKind::crease) return true;
-        const bool differ = faces_viewer(edge.face[0]) != faces_viewer(edge.face[1]);
+        const bool differ = (facing(edge.face[0]) > 0) != (facing(edge.face[1]) > 0);
         // Where one triangle is turned, one side of a surface that is drawn from one side ends here.
         return edge.turned ? !differ || edges_.single_sided(edge.face[0]) || edges_.single_sided(edge.face[1]) : differ;
     }
     /// All its triangles turn a side to the viewer that is not drawn.
     [[nodiscard]] bool turned_away(const ModelEdge& edge) const {
-        const auto away = [&](std::uint32_t face) { return edges_.single_sided(face) && !faces_viewer(face); };
+        const auto away = [&](std::uint32_t face) { return edges_.single_sided(face) && facing(face) < 0; };
         return away(edge.face[0]) && away(edge.face[1]);
     }
     /// The part of the edge between the near and the far plane and near the picture. False: there is none.
@@ -112,6 +117,10 @@ private:
         return {clip.x, clip.y, depth_.z_scale * dot(back_, p - eye_) + depth_.z_offset, clip.w, p};
     }
     static int pixel(double window, int size) { return static_cast<int>(window > 0.0 ? window < size ? window : size - 1 : 0.0); }
+    /// along: the dot product of a triangle's normal and a ray, both of any length.
+    static bool is_edge_on(double along, Vec3d normal, Vec3d ray) {
+        return along * along <= kEdgeOn * kEdgeOn * (dot(normal, normal) * dot(ray, ray));
+    }
     /// Beyond the near plane.
     [[nodiscard]] bool is_drawn(Vec3d p) const {
         const double z = dot(back_, p - eye_);
@@ -122,7 +131,7 @@ private:
     struct Meeting {
         double t = -1.0;  ///< share of the ray's length
         int beyond = 0;   ///< the corner k at which the edge begins beyond which it is; -1: within the triangle
-        int side = 0;     ///< of the triangle that it meets; 0: it has none
+        int side = 0;     ///< of the triangle that it meets; 0: the edge
     };
     [[nodiscard]] Meeting meet(std::uint32_t face, Vec3d eye, Vec3d ray) const {
         constexpr double kRim = -1e-9;
@@ -130,7 +139,7 @@ private:
         const Vec3d &a = edges_.places()[c[0]], e1 = edges_.places()[c[1]] - a, e2 = edges_.places()[c[2]] - a;
         const Vec3d from = eye - a, h = cross(ray, e2), q = cross(from, e1);
         const double scale = dot(e1, h);
-        if (scale == 0.0) return {};
+        if (is_edge_on(scale, cross(e1, e2), ray)) return {};
         const double u = dot(from, h) / scale, v = dot(ray, q) / scale, w = (1.0 - u) - v;  // of corners 1, 2 and 0
         const int side = scale > 0.0 ? 1 : -1;
         const double t = dot(e2, q) / scale;

@@ -226,6 +226,28 @@ TEST_CASE("edges: a cylinder shows two rims and two outlines, and no bends of it
     }
 }
 
+TEST_CASE("edges: a cylinder whose sides are seen edge-on has its whole outline, from each side", "[edges]") {
+    for (const int sides : {4, 6, 30, 90}) {
+        Mesh mesh = cylinder(sides);  // with the digits of a text file, by which such sides are edge-on exactly, or nearly
+        for (Vec3f& p : mesh.positions) p.x = std::round(p.x * 1e5f) / 1e5f, p.z = std::round(p.z * 1e5f) / 1e5f;
+        const Scene scene = scene_of(mesh);
+        for (const double azimuth : {0.0, 90.0, 180.0, 270.0, -90.0}) {
+            const Camera camera = view_of(scene, azimuth, 0, true);
+            const WindowOf window(camera, kSize, kSize);
+            Point2 low{1e9, 1e9}, high{-1e9, -1e9};
+            for (const Vec3f& p : mesh.positions) {
+                const Point2 at = window.point({p.x, p.y, p.z});
+                low = {std::min(low.x, at.x), std::min(low.y, at.y)}, high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+            }
+            std::vector<Segment2> outline{{low, {high.x, low.y}}, {{high.x, low.y}, high}, {high, {low.x, high.y}}, {{low.x, high.y}, low}};
+            const Worst worst = compare(cover_of(scene, camera, lines_of(EdgeChoice::silhouette), kSize, kSize), outline);
+            CAPTURE(sides, azimuth, worst.painted, worst.missing);
+            CHECK(worst.painted <= reach({}));
+            CHECK(worst.missing == 0);
+        }
+    }
+}
+
 TEST_CASE("edges: a square in the plane of a larger one shows its whole border", "[edges]") {
     Scene scene = scene_of(square(2, 0));
     add(scene, square(1, 0));
