@@ -25,6 +25,15 @@ public:
         return sets;
     }
 
+    /// Of each triangle, its set's number, by the first triangles of the sets.
+    [[nodiscard]] std::vector<std::uint32_t> numbers() {
+        std::vector<std::uint32_t> number(parent_.size());
+        std::uint32_t sets = 0;
+        // A set's lowest triangle, which stands for it, comes before its others.
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) number[i] = parent_[i] == i ? sets++ : number[root(i)];
+        return number;
+    }
+
 private:
     std::uint32_t root(std::uint32_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -33,13 +42,19 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace
+/// An edge that is open, flipped, crowded or not balanced, by one of its triangles.
+struct FaultyEdge {
+    std::uint32_t triangle;
+    std::uint32_t uses;
+    bool balanced;
+};
 
-SurfaceTopology topology_of(const WeldedSurface& surface) {
+/// Calls fault(FaultyEdge) for each of them.
+template <class Fault>
+SurfaceTopology find_topology(const WeldedSurface& surface, TriangleSets& bodies, const Fault& fault) {
     SurfaceTopology found;
     const std::vector<std::uint32_t>& corners = surface.corners();
     if (corners.empty()) return found;
-    TriangleSets bodies(corners.size() / 3);
     found.balanced = true;
     for_each_edge(surface, [&](std::uint32_t low, std::span<const EdgeUse> uses) {
         std::size_t upwards = 0;  // from the lower place to the higher one
@@ -50,9 +65,36 @@ SurfaceTopology topology_of(const WeldedSurface& surface) {
         found.open_edges += uses.size() == 1 ? 1 : 0;
         found.flipped_edges += uses.size() == 2 && upwards != 1 ? 1 : 0;
         found.crowded_edges += uses.size() > 2 ? 1 : 0;
-        found.balanced &= 2 * upwards == uses.size();
+        const bool balanced = 2 * upwards == uses.size();
+        found.balanced &= balanced;
+        if (uses.size() != 2 || !balanced) fault(FaultyEdge{uses[0].triangle(), static_cast<std::uint32_t>(uses.size()), balanced});
     });
     found.bodies = bodies.count();
+    return found;
+}
+
+}  // namespace
+
+SurfaceTopology topology_of(const WeldedSurface& surface) {
+    TriangleSets sets(surface.corners().size() / 3);
+    return find_topology(surface, sets, [](const FaultyEdge&) {});
+}
+
+SurfaceTopology topology_of(const WeldedSurface& surface, std::size_t most_bodies, SurfaceBodies& bodies) {
+    TriangleSets sets(surface.corners().size() / 3);
+    std::vector<FaultyEdge> faulty;
+    const SurfaceTopology found = find_topology(surface, sets, [&](const FaultyEdge& edge) { faulty.push_back(edge); });
+    bodies.of_triangle = sets.numbers();
+    bodies.edges.assign(static_cast<std::size_t>(std::min<std::uint64_t>(found.bodies, most_bodies)), {});
+    for (const FaultyEdge& edge : faulty) {
+        const std::size_t body = bodies.of_triangle[edge.triangle];
+        if (body >= bodies.edges.size()) continue;
+        BodyEdges& edges = bodies.edges[body];
+        edges.open += edge.uses == 1 ? 1 : 0;
+        edges.flipped += edge.uses == 2 ? 1 : 0;
+        edges.crowded += edge.uses > 2 ? 1 : 0;
+        edges.balanced &= edge.balanced;
+    }
     return found;
 }
 

@@ -459,3 +459,81 @@ TEST_CASE("measures: a faulty scene or index is refused", "[raster][measures]") 
     CHECK(measure_geometry(scene).error().code == ErrorCode::bad_input);
     CHECK(measure_geometry(scene).error().message == "mesh 0: vertex 24, expected an index below 24");
 }
+
+TEST_CASE("measures: each body has the box, volume and edges of its own, and the instance that begins it", "[raster][measures]") {
+    // In one mesh: a box, two boxes that touch along an edge, an open box. Another instance: a box, turned inside out.
+    Mesh mesh, inside_out;
+    const Mesh box = make_box({0.5f, 0.5f, 0.5f});
+    append(mesh, box, {0, 0, 0});
+    append(mesh, box, {10, 0, 0});
+    append(mesh, box, {11, 1, 0});
+    append(mesh, box, {20, 0, 0});
+    mesh.indices.resize(mesh.indices.size() - 3);
+    append(inside_out, box, {30, 0, 0}, true);
+    Scene scene;
+    scene.meshes = {mesh, inside_out};
+    Mat4 moved;
+    moved.c[3] = {0, 5, 0, 1};
+    scene.instances = {{0, {}}, {1, moved}};
+    const auto found = measure_bodies(scene, 10);
+    REQUIRE(found);
+    const auto& bodies = found->bodies;
+    REQUIRE(bodies.size() == 4);
+    CHECK(found->all.bodies == 4);
+    const double middles[] = {0, 10.5, 20, 30};
+    const double volumes[] = {1, 2, 0, -1};
+    for (std::size_t i = 0; i < 4; ++i) {
+        INFO(i);
+        const Measures& one = bodies[i].measures;
+        CHECK(bodies[i].instance == (i == 3 ? 1u : 0u));
+        CHECK(one.bodies == 1);
+        CHECK((one.min.x + one.max.x) * 0.5 == middles[i]);
+        CHECK(one.size().x == (i == 1 ? 2 : 1));
+        CHECK((one.min.y + one.max.y) * 0.5 == (i == 3 ? 5 : i == 1 ? 0.5 : 0));
+        CHECK(one.watertight == (i != 2));
+        CHECK(one.open_edges == (i == 2 ? 3u : 0u));
+        CHECK(one.crowded_edges == (i == 1 ? 1u : 0u));
+        CHECK(one.triangles == (i == 1 ? 24u : i == 2 ? 11u : 12u));
+        if (i != 2) CHECK(std::abs(one.volume - volumes[i]) < 1e-12);
+        if (i != 2) CHECK(std::abs(one.center.x - middles[i]) < 1e-9);
+    }
+    // A list that ends before the bodies do has the same first ones.
+    for (const std::size_t most : {std::size_t{0}, std::size_t{1}, std::size_t{3}}) {
+        const auto fewer = measure_bodies(scene, most);
+        REQUIRE(fewer);
+        REQUIRE(fewer->bodies.size() == most);
+        CHECK(fewer->all.volume == found->all.volume);
+        CHECK(fewer->all.bodies == 4);
+        for (std::size_t i = 0; i < most; ++i) CHECK(fewer->bodies[i].measures.volume == bodies[i].measures.volume);
+    }
+}
+
+TEST_CASE("measures: bodies of random surfaces add up to the whole", "[raster][measures]") {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        Random random(seed);
+        Mesh mesh;
+        for (int i = 0; i < 6; ++i)
+            append(mesh, make_box({0.5f, 0.5f, 0.5f}), {static_cast<float>(random.index(4)), static_cast<float>(random.index(4)), 0});
+        mesh = rearranged(random, mesh, true);
+        mesh.indices.resize(mesh.indices.size() - 3 * static_cast<std::size_t>(random.index(5)));
+        const auto found = measure_bodies(scene_of(mesh), 1000);
+        REQUIRE(found);
+        INFO(seed);
+        REQUIRE(found->bodies.size() == found->all.bodies);
+        double area = 0;
+        std::uint64_t triangles = 0, open = 0, flipped = 0, crowded = 0;
+        bool watertight = true;
+        for (const Body& body : found->bodies) {
+            area += body.measures.area;
+            triangles += body.measures.triangles;
+            open += body.measures.open_edges, flipped += body.measures.flipped_edges, crowded += body.measures.crowded_edges;
+            watertight = watertight && body.measures.watertight;
+        }
+        CHECK(std::abs(area - found->all.area) < 1e-9 * found->all.area);
+        CHECK(triangles == found->all.triangles);
+        CHECK(open == found->all.open_edges);
+        CHECK(flipped == found->all.flipped_edges);
+        CHECK(crowded == found->all.crowded_edges);
+        CHECK(watertight == found->all.watertight);
+    }
+}

@@ -16,6 +16,7 @@ namespace halflit::cli {
 namespace {
 
 constexpr std::uint64_t kMostTriangles = 1u << 25;  // some ten seconds
+constexpr std::size_t kMostBodies = 100;            // in the list of bodies
 constexpr int kDigits = 7;                          // as many as float32 positions have
 
 double parsed(std::string_view text) {
@@ -42,7 +43,7 @@ bool is_soon_measured(const Scene& scene) {
     return drawn <= std::max(kMostTriangles, 2 * stored);
 }
 
-/// All measures, in the file's unit and along its axes; null if nothing has triangles.
+/// All measures but for the list of bodies, in the file's unit and along its axes; null if nothing has triangles.
 Json in_file_units(const SceneSource& source, const Measures& found) {
     if (found.triangles == found.not_finite_triangles) return nullptr;
     const Placement& placement = source.placement;
@@ -71,6 +72,25 @@ Json in_file_units(const SceneSource& source, const Measures& found) {
                 {"crowded_edges", found.crowded_edges}};
 }
 
+Json chosen_keys(const Json& all, std::span<const char* const> keys) {
+    Json chosen;
+    for (const char* const key : keys) chosen[key] = all[key];
+    return chosen;
+}
+
+/// [{"number", "part", measures ..}]
+Json bodies_json(const SceneSource& source, std::span<const Body> bodies) {
+    constexpr const char* kKeys[] = {"min",    "max",        "center",     "triangles",     "area",
+                                     "volume", "watertight", "open_edges", "flipped_edges", "crowded_edges"};
+    Json list = Json::array();
+    for (const Body& body : bodies) {
+        Json one{{"number", list.size() + 1}, {"part", source.parts->of_instance(body.instance) + 1}};
+        one.update(chosen_keys(in_file_units(source, body.measures), kKeys));
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
 }  // namespace
 
 std::string unit_name(const SceneSource& source) {
@@ -82,9 +102,11 @@ std::string unit_name(const SceneSource& source) {
 
 Result<Json> measures_json(const RenderJob& job) {
     if (!is_soon_measured(job.scene())) return Json(nullptr);
-    const auto measured = measure_geometry(job.scene());
+    const auto measured = measure_bodies(job.scene(), kMostBodies);
     if (!measured) return tl::unexpected(measured.error());
-    return in_file_units(job.source, *measured);
+    Json all = in_file_units(job.source, measured->all);
+    if (!all.is_null()) all["body_list"] = bodies_json(job.source, measured->bodies);
+    return all;
 }
 
 Result<Json> part_measures_json(const RenderJob& job, const Part& part) {
@@ -92,9 +114,8 @@ Result<Json> part_measures_json(const RenderJob& job, const Part& part) {
     if (!measured) return tl::unexpected(measured.error());
     const Json all = in_file_units(job.source, *measured);
     if (all.is_null()) return all;
-    Json chosen;
-    for (const char* key : {"size", "area", "volume", "watertight", "open_edges"}) chosen[key] = all[key];
-    return chosen;
+    constexpr const char* kKeys[] = {"size", "area", "volume", "watertight", "open_edges"};
+    return chosen_keys(all, kKeys);
 }
 
 bool parts_are_soon_measured(const RenderJob& job) { return is_soon_measured(job.scene()); }

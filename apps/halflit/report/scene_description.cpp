@@ -196,6 +196,7 @@ Result<std::string> describe_scene(const RenderJob& job, bool json, bool measure
     description["bounds"] = bounds.empty ? Json(nullptr) : Json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
     auto measures = measures_json(job);
     if (!measures) return tl::unexpected(measures.error());
+    if (!json && measures->is_object()) measures->erase("body_list");  // a dozen lines for each body
     description["measures"] = std::move(*measures);
     auto parts = json ? parts_json(job, measure_parts) : parts_text(job, measure_parts);
     if (!parts) return tl::unexpected(parts.error());
