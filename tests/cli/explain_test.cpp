@@ -83,3 +83,23 @@ TEST_CASE("explain: pixels that are missing, faulty or outside of the picture ar
         CHECK(contains(outcome.err, "--pixel: expected a pixel of the 64x36 picture, found " + pixel));
     }
 }
+
+TEST_CASE("explain: a dash after --json is standard output, unless it is the only scene", "[cli][explain]") {
+    const std::vector<std::string> head{"explain", "--size", "16", "--pixel", "8,8"};
+    const auto with = [&](std::vector<std::string> words, const RunSettings& settings = {}) {
+        words.insert(words.begin(), head.begin(), head.end());
+        return run(words, settings);
+    };
+    const Outcome plain = with({"sphere:100", "--json"});
+    REQUIRE(plain.code == 0);
+    CHECK(with({"sphere:100", "--json", "-"}).out == plain.out);
+    CHECK(with({"--json", "-", "sphere:100"}).out == plain.out);
+    CHECK(with({"--json", "-", "--pixel=0,0", "sphere:100"}).code == 0);
+    CHECK(with({"sphere:100", "-"}).code == 2);
+    CHECK(with({"sphere:100", "-", "--json"}).code == 2);
+    const Outcome piped = with({"--json", "-"}, {.input = kTriangle});
+    INFO(piped.err);
+    REQUIRE(piped.code == 0);
+    CHECK(json::parse(piped.out)["scene"] == "standard input");
+    CHECK(run({"info", "sphere:100", "--json", "-"}).out == run({"info", "sphere:100", "--json"}).out);
+}

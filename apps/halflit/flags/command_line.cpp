@@ -161,10 +161,37 @@ Result<void> refuse_empty(const std::vector<std::string>& arguments) {
     return {};
 }
 
+/// Where --json is a switch, a "-" after it says what the switch does in any case: print. It is left out if the line has another word for
+/// each place; otherwise it is that word, as standard input.
+void drop_dash_of_json(std::span<const Command> commands, std::vector<std::string>& arguments) {
+    const auto begin = std::find_if(arguments.begin(), arguments.end(), [](const std::string& word) { return !word.starts_with('-'); });
+    const auto command =
+        std::find_if(commands.begin(), commands.end(), [&](const Command& one) { return begin != arguments.end() && one.name == *begin; });
+    if (command == commands.end() || (!command->positionals.empty() && command->positionals.back().repeated)) return;
+    const std::vector<const Flag*> flags = flags_of(*command);
+    const auto flag_of = [&](const std::string& word) -> const Flag* {
+        for (const Flag* const flag : flags)
+            for (const std::string& name : words_of(flag->names, ','))
+                if (name == word) return flag;
+        return nullptr;
+    };
+    auto dash = arguments.end();
+    std::size_t words = 0;
+    for (auto word = begin + 1; word != arguments.end(); ++word) {
+        const Flag* const flag = flag_of(*word);
+        if (flag != nullptr && !flag->form.empty() && word + 1 != arguments.end()) ++word;
+        if (flag != nullptr || (word->starts_with('-') && *word != "-")) continue;
+        ++words;
+        if (*word == "-" && *(word - 1) == "--json") dash = word;
+    }
+    if (dash != arguments.end() && words > command->positionals.size()) arguments.erase(dash);
+}
+
 }  // namespace
 
 Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::vector<std::string> arguments) {
     if (const auto checked = refuse_empty(arguments); !checked) return tl::unexpected(checked.error());
+    drop_dash_of_json(commands, arguments);
     CLI::App root("", "halflit");
     root.set_help_flag("-h,--help");
     root.set_help_all_flag("--help-all");
