@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -341,6 +342,84 @@ TEST_CASE("camera file: all cameras are drawn, in files whose names stay in the 
         run({"render", "demo", "--camera-file", folder.file("c.json"), "--camera", "all", "-o", folder.file("{view}.png")});
     CHECK(sizes.code == 2);
     CHECK(sizes.err.find("different sizes") != std::string::npos);
+}
+
+TEST_CASE("camera file: every camera of a report of look, of render and of several pictures is a view", "[cli][cameras]") {
+    const TemporaryFolder folder;
+    const auto all_by = [&](const std::string& report, const std::string& prefix) {
+        const Outcome outcome = run({"render", "demo", "--samples", "1", "--camera-file", folder.file(report), "--camera", "all", "-o",
+                                     folder.file(prefix + "{view}.png"), "--report", "-", "--quiet"});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        std::vector<Json> lines;
+        std::istringstream text(outcome.out);
+        for (std::string line; std::getline(text, line);) lines.push_back(Json::parse(line));
+        return lines;
+    };
+    const auto same_place = [](Json a, Json b) {
+        a.erase("name"), b.erase("name");
+        return a == b;
+    };
+    (void)run({"look", "demo", "--size", "64x48", "--json", folder.file("look.json")});
+    const Json look = Json::parse(contents(folder.file("look.json")));
+    const auto views = all_by("look.json", "look_");
+    REQUIRE(views.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(views[i]["output"] == folder.file("look_" + look["views"][i]["name"].get<std::string>() + ".png"));
+        CHECK(same_place(views[i]["camera"], look["views"][i]["camera"]));
+    }
+    // By the name of the view.
+    const Json top = drawn("demo", folder.file("top.png"), {"--camera-file", folder.file("look.json"), "--camera", "top"});
+    CHECK(same_place(top["camera"], look["views"][2]["camera"]));
+    // One picture, and several, one a line.
+    write_contents(folder.file("one.json"), drawn("demo", folder.file("one.png"), {"--view", "iso", "--size", "40x30"}).dump(2));
+    CHECK(all_by("one.json", "one_").size() == 1);
+    REQUIRE(run({"render", "demo", "--size", "40x30", "--turntable", "5", "-o", folder.file("f_{}.png"), "--report",
+                 folder.file("film.json"), "--quiet"})
+                .code == 0);
+    const auto frames = all_by("film.json", "again_");
+    REQUIRE(frames.size() == 5);
+    std::istringstream film(contents(folder.file("film.json")));
+    for (const Json& frame : frames) {
+        std::string line;
+        std::getline(film, line);
+        CHECK(same_place(frame["camera"], Json::parse(line)["camera"]));
+    }
+    for (const std::string text :
+         {R"({"schema": "halflit.look/1", "views": []})", R"({"schema": "halflit.look/1", "views": [{"camera": 3}]})",
+          R"({"schema": "halflit.report/1", "camera": {}})", R"({"schema": "x"})", "{\"schema\":\"halflit.report/1\"}\n{\"schema\": 4"}) {
+        write_contents(folder.file("wrong.json"), text);
+        const Outcome wrong =
+            run({"render", "demo", "--size", "8", "--camera-file", folder.file("wrong.json"), "-o", folder.file("w.png")});
+        INFO(text << wrong.err);
+        CHECK(wrong.code == 3);
+        CHECK(std::count(wrong.err.begin(), wrong.err.end(), '\n') == 1);
+    }
+}
+
+TEST_CASE("camera file: frames of different sizes are refused with both, unless --size sets one", "[cli][cameras]") {
+    const TemporaryFolder folder;
+    Json cameras{{"camera_angle_x", 0.8}, {"frames", Json::array()}};
+    for (const int width : {40, 40, 64}) {
+        Json frame{{"file_path", "p" + std::to_string(cameras["frames"].size())}, {"w", width}, {"h", 30}};
+        frame["transform_matrix"] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 4}, {0, 0, 0, 1}};
+        cameras["frames"].push_back(std::move(frame));
+    }
+    write_contents(folder.file("transforms.json"), cameras.dump());
+    const auto draw = [&](const Strings& more) {
+        Strings words{"render", "demo", "--camera-file", folder.file("transforms.json"), "-o", folder.file("{view}.png")};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    const Outcome mixed = draw({"--camera", "all"});
+    CHECK(mixed.code == 2);
+    CHECK(mixed.err.find("different sizes, 40x30 and 64x30; --size sets one") != std::string::npos);
+    const Outcome sized = draw({"--camera", "all", "--size", "40x30"});
+    CHECK(sized.code == 0);
+    CHECK(sized.err.find("made for 64x30 pixels; --size 40x30 stretches it") != std::string::npos);
+    // Each alone has its own size.
+    CHECK(drawn("demo", folder.file("a.png"), {"--camera-file", folder.file("transforms.json"), "--camera", "p2"})["size"] == Json{64, 30});
+    CHECK(drawn("demo", folder.file("a.png"), {"--camera-file", folder.file("transforms.json"), "--camera", "p1"})["size"] == Json{40, 30});
 }
 
 TEST_CASE("camera file: what is damaged is refused in one line", "[cli][cameras]") {

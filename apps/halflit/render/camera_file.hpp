@@ -1,5 +1,5 @@
-// Files of cameras: halflit's own JSON (report/camera_json.hpp writes it), transforms.json of NeRF and instant-ngp, COLMAP's text model,
-// and the cameras of a glTF file.
+// Files of cameras: halflit's own JSON (report/camera_json.hpp writes it) and reports, transforms.json of NeRF and instant-ngp, COLMAP's
+// text model, and the cameras of a glTF file.
 #pragma once
 
 #include "apps/halflit/render/given_camera.hpp"
@@ -30,7 +30,8 @@ inline constexpr const char* kDistorted = "the lens of a camera has distortion, 
 /// Refuses a picture's size of a camera that no picture can have.
 [[nodiscard]] Result<PictureSize> checked_size(double width, double height);
 
-/// Cameras of JSON: halflit's own, or with `frames` those of NeRF. Errors have no file prefix.
+/// Cameras of JSON: halflit's own, those of its reports (of render for several pictures, one a line), or with `frames` those of NeRF.
+/// Errors have no file prefix.
 [[nodiscard]] Result<void> read_json_cameras(std::string_view text, CameraFile& into);
 
 /// Cameras of COLMAP's images.txt and cameras.txt.

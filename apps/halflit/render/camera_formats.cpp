@@ -1,4 +1,4 @@
-// Cameras of JSON: halflit's own objects, and transforms.json of NeRF, instant-ngp and Nerfstudio.
+// Cameras of JSON: halflit's own objects and its reports, and transforms.json of NeRF, instant-ngp and Nerfstudio.
 #include "apps/halflit/render/camera_file.hpp"
 #include "apps/io/files/text.hpp"
 #include "sh/time_limit.hpp"
@@ -218,11 +218,67 @@ Result<CameraJson> parsed_json(std::string_view text) {
     }
 }
 
+/// A report of look, render or compare: it has cameras of its own, or of its views.
+bool is_report(const CameraJson& json) {
+    return json.is_object() && json.contains("schema") && !json.contains("frames") && !json.contains("world_from_camera");
+}
+
+/// Adds the cameras of a report. A view's camera takes its name; a picture's camera without a name takes that of the picture.
+Result<void> add_of_report(const CameraJson& report, CameraFile& into) {
+    const auto add = [&](const CameraJson& object, const std::string& place, const char* name, bool instead) -> Result<void> {
+        const auto found = object.find("camera");
+        if (found == object.end()) return {};
+        if (!found->is_object()) return fail(ErrorCode::bad_input, place + "camera: expected an object");
+        if (into.cameras.size() == kMostCameras) return fail(ErrorCode::limit, fmt::format("more than {} cameras", kMostCameras));
+        auto camera = own_camera(*found);
+        if (!camera) return fail(camera.error().code, place + "camera: " + camera.error().message);
+        const auto named = object.find(name);
+        if (named != object.end() && named->is_string() && (instead || camera->name.empty())) camera->name = named->get<std::string>();
+        into.cameras.push_back(std::move(*camera));
+        return {};
+    };
+    if (const auto added = add(report, "", "output", false); !added) return added;
+    const auto views = report.find("views");
+    if (views == report.end() || !views->is_array()) return {};
+    for (std::size_t i = 0; i < views->size(); ++i) {
+        check_time();
+        if (!(*views)[i].is_object()) continue;
+        if (const auto added = add((*views)[i], fmt::format("views[{}].", i), "name", true); !added) return added;
+    }
+    return {};
+}
+
+/// Reports of several pictures, one a line.
+Result<void> add_of_lines(std::string_view text, CameraFile& into) {
+    for (std::size_t number = 1; !text.empty(); ++number) {
+        check_time();
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+        const auto json = parsed_json(line);
+        const auto added = !json              ? Result<void>(tl::unexpected(json.error()))
+                           : is_report(*json) ? add_of_report(*json, into)
+                                              : Result<void>(fail(ErrorCode::bad_input, "expected a report"));
+        if (!added) return fail(added.error().code, fmt::format("line {}: {}", number, added.error().message));
+    }
+    return {};
+}
+
+/// The first line is an object of its own, and another line follows it.
+bool has_lines_of_reports(std::string_view text) {
+    const std::size_t end = text.find('\n');
+    return text.starts_with("{\"schema\":\"halflit.") && end != std::string_view::npos &&
+           text.find_first_not_of(" \t\r\n", end) != std::string_view::npos;
+}
+
 }  // namespace
 
 Result<void> read_json_cameras(std::string_view text, CameraFile& into) {
+    if (has_lines_of_reports(text)) return add_of_lines(text, into);
     const auto json = parsed_json(text);
     if (!json) return tl::unexpected(json.error());
+    if (is_report(*json)) return add_of_report(*json, into);
     const bool frames = json->is_object() && json->contains("frames");
     const CameraJson& list = frames ? (*json)["frames"] : *json;
     if (frames && !list.is_array()) return fail(ErrorCode::bad_input, "frames: expected a list");

@@ -156,27 +156,34 @@ Result<void> use_given_cameras(RenderJob& job, const RenderOptions& options, Pic
         }
         return placed(camera, job.source.placement, job.film.bounds);
     };
-    if (options.size && file.cameras[0].size) {
-        const PictureSize made = *file.cameras[0].size;
-        if (std::int64_t{options.size->width} * made.height != std::int64_t{options.size->height} * made.width)
+    bool stretched = false;
+    const auto warn_of_stretch = [&](const GivenCamera& camera) {
+        if (!options.size || !camera.size || stretched) return;
+        const PictureSize made = *camera.size;
+        stretched = std::int64_t{options.size->width} * made.height != std::int64_t{options.size->height} * made.width;
+        if (stretched)
             job.warnings.push_back(fmt::format("{}: made for {}x{} pixels; --size {}x{} stretches it", file.path, made.width, made.height,
                                                options.size->width, options.size->height));
-    }
+    };
     std::size_t first = 0;
     if (options.camera != kAllCameras) {
         const auto found = find_camera(file, options.camera.value_or(""));
         if (!found) return tl::unexpected(found.error());
         first = *found;
     } else {
+        const auto size_text = [](const GivenCamera& camera) {
+            return camera.size ? fmt::format("{}x{}", camera.size->width, camera.size->height) : std::string("none");
+        };
         for (const GivenCamera& camera : file.cameras) {
-            const bool same = camera.size.has_value() == file.cameras[0].size.has_value() &&
-                              (!camera.size ||
-                               (camera.size->width == file.cameras[0].size->width && camera.size->height == file.cameras[0].size->height));
-            if (!same && !options.size)
-                return fail(ErrorCode::usage, file.path + ": its cameras have pictures of different sizes; --size sets one");
+            if (!options.size && size_text(camera) != size_text(file.cameras[0]))
+                return fail(ErrorCode::usage,
+                            fmt::format("{}: its cameras have pictures of different sizes, {} and {}; --size sets one for all", file.path,
+                                        size_text(file.cameras[0]), size_text(camera)));
+            warn_of_stretch(camera);
             job.film.views.push_back(place(camera));
         }
     }
+    warn_of_stretch(file.cameras[first]);
     request.camera = place(file.cameras[first]);
     if (!request.size) request.size = file.cameras[first].size;
     return {};

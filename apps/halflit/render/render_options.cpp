@@ -146,9 +146,8 @@ FlagGroup camera_flags(RenderOptions& o) {
          {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
           parsed(o.camera_target, parse_point)},
          {"--camera-file", "FILE",
-          "Cameras in place of the model's: JSON as a report's `camera`, transforms.json of NeRF, COLMAP's images.txt, or a glTF file. "
-          "They "
-          "are in the coordinates and along the axes of the model's file",
+          "Cameras in place of the model's: JSON as a report's `camera`, a report of look or render, transforms.json of NeRF, COLMAP's "
+          "images.txt, or a glTF file. They are in the coordinates and along the axes of the model's file",
           read_text(o.camera_file)},
          {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
          {"--up", form_of(kUpAxisNames),
