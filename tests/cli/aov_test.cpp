@@ -8,9 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 
 using namespace halflit::test;
 
@@ -210,4 +212,63 @@ TEST_CASE("aov: names that are not known, a picture without a name, and files of
     CHECK(itself.code == 4);
     CHECK(itself.err.find("is the scene itself") != std::string::npos);
     CHECK(folder.names() == std::vector<std::string>{"a.id.png"});
+}
+
+TEST_CASE("aov: several views, cameras and frames have the files of their pictures drawn alone", "[cli]") {
+    const TemporaryFolder folder;
+    const std::string aovs = "depth,view_normal,ray,position,part,triangle,depth16";
+    const auto draw = [&](const std::vector<std::string>& flags, const std::string& output) {
+        std::vector<std::string> all = {"render", "demo", "--size", "48x32", "--aov", aovs, "-o", folder.file(output), "--report", "-"};
+        all.insert(all.end(), flags.begin(), flags.end());
+        const Outcome outcome = run(all);
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return outcome.out;
+    };
+    // Each of `names` must be the same file as that of `alone`.
+    std::size_t compared = 0;
+    const auto same_files = [&](const std::string& stem, const std::string& alone) {
+        for (const std::string& name : folder.names())
+            if (name.starts_with(alone + ".")) {
+                INFO(stem << " and " << name);
+                CHECK(contents(folder.file(stem + name.substr(alone.size()))) == contents(folder.file(name)));
+                ++compared;
+            }
+    };
+    const std::string report = draw({"--view", "front,top,22.5,-10"}, "v_{view}.png");
+    CHECK(std::count(report.begin(), report.end(), '\n') == 3);
+    const auto first = nlohmann::json::parse(report.substr(0, report.find('\n')));
+    CHECK(first["aov"]["depth"] == folder.file("v_front.depth" + kFloats));
+    CHECK(first["aov"].size() == 9);
+    // All views of one run are framed together, so the cameras of the report draw the pictures alone.
+    write_contents(folder.file("views.json"), report);
+    for (const char* const index : {"0", "1", "2"})
+        draw({"--camera-file", folder.file("views.json"), "--camera", index}, std::string("alone") + index + ".png");
+    same_files("v_front", "alone0");
+    same_files("v_top", "alone1");
+    same_files("v_22.5,-10", "alone2");
+    CHECK(compared == 3 * 10);
+    draw({"--camera-file", folder.file("views.json"), "--camera", "all"}, "c_{view}.png");
+    same_files("c_v_top", "alone1");
+    const std::string film = draw({"--turntable", "3"}, "f_{:02}.png");
+    write_contents(folder.file("film.json"), film);
+    for (const char* const index : {"0", "2"}) {
+        draw({"--camera-file", folder.file("film.json"), "--camera", index}, std::string("turn") + index + ".png");
+        for (const std::string& name : {"depth" + kFloats, "ray" + kFloats, "position" + kFloats, "view_normal" + kFloats})
+            CHECK(contents(folder.file(std::string("f_0") + index + "." + name)) ==
+                  contents(folder.file(std::string("turn") + index + "." + name)));
+        CHECK(contents(folder.file(std::string("f_0") + index + ".part.png")) ==
+              contents(folder.file(std::string("turn") + index + ".part.png")));
+    }
+    CHECK(contents(folder.file("f_00.depth" + kFloats)) != contents(folder.file("f_02.depth" + kFloats)));
+    // A view's name with a dot stays whole where --format gives the format.
+    draw({"--view", "22.5,-10,22.6,-10", "--format", "png"}, "d_{view}");
+    CHECK(contents(folder.file("d_22.5,-10.depth" + kFloats)) != contents(folder.file("d_22.6,-10.depth" + kFloats)));
+    // Nothing that the scene needs is overwritten.
+    write_contents(folder.file("m.gltf"), triangle_at(0, 0));
+    std::filesystem::copy(folder.file("m.gltf"), folder.file("w_front.names.json"));
+    const Outcome refused = run({"render", folder.file("w_front.names.json"), "--size", "8", "--view", "front,top", "--aov", "part", "-o",
+                                 folder.file("w_{view}.png")});
+    CHECK(refused.code == 4);
+    CHECK(contents(folder.file("w_front.names.json")) == triangle_at(0, 0));
 }

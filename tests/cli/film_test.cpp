@@ -467,7 +467,8 @@ TEST_CASE("frames: wrong flags are told with what was expected", "[cli][film]") 
           std::string::npos);
     CHECK(message({"--fps", "24", "-o", "a.png"}).find("--fps: expected together with") != std::string::npos);
     CHECK(message({"-o", "a.gif"}).find("expected --frames or --turntable") != std::string::npos);
-    CHECK(message({"--turntable", "4", "--aov", "depth", "-o", "a_{}.png"}).find("--aov: cannot") != std::string::npos);
+    CHECK(message({"--turntable", "4", "--aov", "depth", "-o", "a.apng"}).find("--aov: expected a file for each frame") !=
+          std::string::npos);
     CHECK(message({"--turntable", "0", "-o", "a_{}.png"}).find("--turntable") != std::string::npos);
     CHECK(message({"--turntable", "4", "--dither", "-o", "a_{}.png"}).find("--dither: expected a .gif") != std::string::npos);
 }

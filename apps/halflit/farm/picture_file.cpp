@@ -129,7 +129,8 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     if (!bytes) return tl::unexpected(bytes.error());
     picture.bytes = std::move(*bytes);
     picture.file_hash = pixel_hash(picture.bytes);
-    auto beside = planes.encode(options.output, *job);
+    if (const auto derived = planes.derive(*job, job->camera); !derived) return tl::unexpected(derived.error());
+    auto beside = planes.encode(options.output);
     if (!beside) return tl::unexpected(beside.error());
     picture.beside = std::move(*beside);
     const double encode_ms = encoding.ms();
@@ -200,13 +201,17 @@ Result<PictureFile> draw_picture(PictureOptions& options, bool one_of_many) {
     return within_memory(options, [&] { return drawn_and_encoded(options, one_of_many); });
 }
 
-Result<void> write_picture(const PictureFile& picture) {
-    std::string note = "wrote " + picture.output;
-    for (const AovFile& file : picture.beside.files) {
+Result<void> write_with_aovs(const std::string& output, std::span<const std::uint8_t> bytes, const AovFiles& beside) {
+    for (const AovFile& file : beside.files)
         if (const auto written = io::write_file(file.path, file.bytes); !written) return tl::unexpected(written.error());
-        note += ", " + file.path;
-    }
-    if (const auto written = io::write_file(picture.output, picture.bytes); !written) return tl::unexpected(written.error());
+    if (const auto written = io::write_file(output, bytes); !written) return tl::unexpected(written.error());
+    return {};
+}
+
+Result<void> write_picture(const PictureFile& picture) {
+    if (const auto written = write_with_aovs(picture.output, picture.bytes, picture.beside); !written) return written;
+    std::string note = "wrote " + picture.output;
+    for (const AovFile& file : picture.beside.files) note += ", " + file.path;
     if (picture.output != "-") print_note(note);
     return {};
 }

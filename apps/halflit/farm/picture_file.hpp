@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,7 +92,10 @@ struct PictureFile {
 /// one_of_many: no progress line, and a report of one line.
 [[nodiscard]] Result<PictureFile> draw_picture(PictureOptions& options, bool one_of_many = false);
 
-/// Writes the files beside the picture, then the picture.
+/// Writes the files beside a picture, then the picture: where that is, they are whole.
+[[nodiscard]] Result<void> write_with_aovs(const std::string& output, std::span<const std::uint8_t> bytes, const AovFiles& beside);
+
+/// The same, and tells of it.
 [[nodiscard]] Result<void> write_picture(const PictureFile& picture);
 
 }  // namespace halflit::cli

@@ -28,6 +28,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace halflit::cli {
 namespace {
@@ -36,6 +37,7 @@ namespace {
 struct Drawn {
     PictureFile file;  ///< without bytes
     Image* picture = nullptr;
+    AovPlanes* planes = nullptr;
     RenderReport rendered;
     double load_ms = 0, prepare_ms = 0, pose_time_s = 0;
     Camera camera;
@@ -44,6 +46,7 @@ struct Drawn {
 struct Encoded {
     double ms = 0;
     std::uint64_t file_hash = 0;  ///< 0: no file of its own
+    AovFiles beside{};            ///< written; without bytes
 };
 
 class FilmRun {
@@ -96,6 +99,8 @@ private:
         if (film_format_ && skip_existing_)
             return fail(ErrorCode::usage,
                         "--skip-existing: expected a pattern such as frame_{:04}.png as the output, found '" + output + "'");
+        if (film_format_ && !options_.aovs.empty())
+            return fail(ErrorCode::usage, "--aov: expected a file for each frame, as frame_{:04}.png, found '" + output + "'");
         if (!film_format_) {
             const auto format = options_.picture_format();
             if (!format) return tl::unexpected(format.error());
@@ -136,7 +141,11 @@ private:
             if (const auto made = make_folder(folder); !made) return tl::unexpected(made.error());
         if (!options_.report.empty())
             if (const auto writable = check_writable(options_.report); !writable) return writable;
-        return check_writable(file_of(0));
+        PictureOptions first = options_;
+        first.output = file_of(0);
+        for (const std::string& path : first.pictures())
+            if (const auto writable = check_writable(path); !writable) return writable;
+        return {};
     }
 
     Result<void> spare_inputs_of_all() {
@@ -146,6 +155,7 @@ private:
     Result<void> make_writer() {
         const bool floats = !film_format_ && is_linear(format_);
         for (Image& picture : pictures_) picture = make_image(*job_, floats);
+        for (std::size_t i = 0; i < pictures_.size(); ++i) planes_.emplace_back(options_.aovs, *job_);
         if (!film_format_) return {};
         auto writer = film::make_film_writer(*film_format_, {pictures_[0].width, pictures_[0].height, range_.count(),
                                                              options_.film.frame_time(), is_opaque(), options_.film.dither});
@@ -237,11 +247,14 @@ private:
         drawn.camera = camera;
         drawn.file = file_at(i);
         drawn.picture = &pictures_[drawn_count_ % pictures_.size()];
-        const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, job_->settings, target_of(*job_, *drawn.picture),
-                                               job_->timed_execution());
+        drawn.planes = &planes_[drawn_count_ % pictures_.size()];
+        Target target = target_of(*job_, *drawn.picture);
+        drawn.planes->add_to(target);
+        const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, job_->settings, target, job_->timed_execution());
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));
         drawn.rendered = *rendered;
+        if (const auto derived = drawn.planes->derive(*job_, camera); !derived) return tl::unexpected(derived.error());
         if (options_.film.quality) drawn.file.measured = measured_;
         return drawn;
     }
@@ -252,13 +265,16 @@ private:
             const Stopwatch encoding;
             if (writer_) {
                 if (const auto added = writer_->add(*drawn.picture); !added) return tl::unexpected(added.error());
-                return Encoded{encoding.ms(), 0};
+                return Encoded{.ms = encoding.ms()};
             }
             const auto bytes = encode_image(*drawn.picture, format_);
             if (!bytes) return tl::unexpected(bytes.error());
+            auto beside = drawn.planes->encode(drawn.file.output);
+            if (!beside) return tl::unexpected(beside.error());
             const double ms = encoding.ms();
-            if (const auto written = io::write_file(drawn.file.output, *bytes); !written) return tl::unexpected(written.error());
-            return Encoded{ms, pixel_hash(*bytes)};
+            if (const auto written = write_with_aovs(drawn.file.output, *bytes, *beside); !written) return tl::unexpected(written.error());
+            for (AovFile& file : beside->files) file.bytes.clear();
+            return Encoded{ms, pixel_hash(*bytes), std::move(*beside)};
         } catch (const std::bad_alloc&) {
             return fail(ErrorCode::limit, "out of memory while encoding a frame");
         }
@@ -267,10 +283,11 @@ private:
     /// Waits for the frame that is being encoded, and reports it.
     Result<void> settle(Drawn& drawn, std::future<Result<Encoded>>& encoding) {
         if (!encoding.valid()) return {};
-        const auto encoded = encoding.get();
+        auto encoded = encoding.get();
         if (!encoded) return tl::unexpected(encoded.error());
         if (options_.report.empty()) return {};
         drawn.file.file_hash = encoded->file_hash;
+        drawn.file.beside = std::move(encoded->beside);
         Camera camera = drawn.camera;
         const auto now = std::array{job_->load_ms, job_->prepare_ms, job_->pose_time_s};
         job_->load_ms = drawn.load_ms, job_->prepare_ms = drawn.prepare_ms, job_->pose_time_s = drawn.pose_time_s;
@@ -335,6 +352,7 @@ private:
     OutputFormat format_ = OutputFormat::png;
     std::unique_ptr<film::FilmWriter> writer_;
     std::array<Image, 2> pictures_;  ///< one is drawn while the other is encoded
+    std::vector<AovPlanes> planes_;  ///< of each of them
     Renderer renderer_;
     MeasuredShare measured_;  ///< of the film
     std::string report_;
@@ -362,7 +380,6 @@ Result<void> settle_quality(PictureOptions& options) {
 
 Result<int> render_film(PictureOptions options, bool skip_existing) {
     if (const auto checked = check_film_options(options.film, options.output); !checked) return tl::unexpected(checked.error());
-    if (!options.aovs.empty()) return fail(ErrorCode::usage, "--aov: cannot be combined with --frames, --turntable or several views");
     if (options.blank_check) return fail(ErrorCode::usage, "--blank-check: cannot be combined with --frames, --turntable or several views");
     if (const auto settled = settle_quality(options); !settled) return tl::unexpected(settled.error());
     io::begin_file_set();

@@ -5,6 +5,7 @@
 #include "apps/io/pictures/exr_file.hpp"
 #include "apps/io/pictures/grey_png.hpp"
 #include "apps/io/pictures/pfm_file.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
 #include "halflit/fragment_planes.hpp"
 #include "halflit/image.hpp"
 #include "sh/vec3d.hpp"
@@ -17,24 +18,24 @@
 namespace halflit::cli {
 namespace {
 
-Result<void> as_rays(const RenderJob& job, AovPlane& plane) {
-    return make_ray_distances(job.camera, {job.width, job.height}, job.settings.region, plane.floats);
+Result<void> as_rays(const RenderJob& job, const Camera& camera, AovPlane& plane) {
+    return make_ray_distances(camera, {job.width, job.height}, job.settings.region, plane.floats);
 }
-Result<void> as_view_normals(const RenderJob& job, AovPlane& plane) { return make_view_normals(job.camera, plane.floats); }
-Result<void> as_meshes(const RenderJob& job, AovPlane& plane) {
+Result<void> as_view_normals(const RenderJob&, const Camera& camera, AovPlane& plane) { return make_view_normals(camera, plane.floats); }
+Result<void> as_meshes(const RenderJob& job, const Camera&, AovPlane& plane) {
     make_mesh_numbers(job.scene(), plane.numbers);
     return {};
 }
-Result<void> as_materials(const RenderJob& job, AovPlane& plane) {
+Result<void> as_materials(const RenderJob& job, const Camera&, AovPlane& plane) {
     make_material_numbers(job.scene(), plane.numbers);
     return {};
 }
-Result<void> as_parts(const RenderJob& job, AovPlane& plane) {
+Result<void> as_parts(const RenderJob& job, const Camera&, AovPlane& plane) {
     for (std::uint32_t& number : plane.numbers) number = part_number(job.source, number);
     return {};
 }
 /// Two floats as three, the last one 0: files have one channel or three.
-Result<void> as_three(const RenderJob&, AovPlane& plane) {
+Result<void> as_three(const RenderJob&, const Camera&, AovPlane& plane) {
     std::vector<float> three(plane.floats.size() / 2 * 3);
     for (std::size_t i = 0; i < three.size() / 3; ++i) three[3 * i] = plane.floats[2 * i], three[3 * i + 1] = plane.floats[2 * i + 1];
     plane.floats = std::move(three);
@@ -98,8 +99,9 @@ std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin
 
 std::string_view extension_of(const AovKind& aov) { return aov.format != AovFormat::floats ? "png" : has_exr() ? "exr" : "pfm"; }
 
-/// The name without extension.
+/// The name without extension. A view's name, such as 22.5,0, may have a dot where --format gives the format.
 std::string stem_of_picture(const std::string& picture) {
+    if (!io::is_picture_name(picture)) return picture;
     const std::size_t name = picture.rfind('/') + 1;  // npos + 1 is 0
     const std::size_t dot = picture.rfind('.');
     return dot == std::string::npos || dot <= name ? picture : picture.substr(0, dot);
@@ -251,24 +253,29 @@ Result<std::vector<std::uint8_t>> AovPlanes::encode(const AovKind& aov, const Ao
     return encode16(aov, plane);
 }
 
-Result<AovFiles> AovPlanes::encode(const std::string& picture, const RenderJob& job) {
+Result<void> AovPlanes::derive(const RenderJob& job, const Camera& camera) {
     to_world_of_file(job);
-    AovFiles files;
+    derived_.clear();
     for (const Aov aov : aovs_) {
-        const AovPlane* plane = &drawn(aov->floats, aov->numbers, aov->channels);
-        AovPlane derived;
-        if (aov->derive != nullptr) {
-            derived = *plane;
-            if (auto made = aov->derive(job, derived); !made) return tl::unexpected(made.error());
-            plane = &derived;
-        }
-        auto bytes = encode(*aov, *plane, files);
+        AovPlane& plane = derived_.emplace_back(drawn(aov->floats, aov->numbers, aov->channels));
+        if (aov->derive == nullptr) continue;
+        if (auto made = aov->derive(job, camera, plane); !made) return made;
+    }
+    if (any_named(aovs_)) names_ = names_text(job.source);
+    return {};
+}
+
+Result<AovFiles> AovPlanes::encode(const std::string& picture) const {
+    AovFiles files;
+    for (std::size_t i = 0; i < aovs_.size(); ++i) {
+        const Aov aov = aovs_[i];
+        auto bytes = encode(*aov, derived_[i], files);
         if (!bytes) return tl::unexpected(bytes.error());
         files.files.push_back({std::string(aov->name), path_of(picture, aov->name, extension_of(*aov)), std::move(*bytes)});
         if (aov->format == AovFormat::depth16)
             files.files.push_back({"depth16_range", path_of(picture, aov->name, "json"), bytes_of(depth16_text(*files.depth16))});
     }
-    if (any_named(aovs_)) files.files.push_back({std::string(kNames), path_of(picture, kNames, "json"), bytes_of(names_text(job.source))});
+    if (any_named(aovs_)) files.files.push_back({std::string(kNames), path_of(picture, kNames, "json"), bytes_of(names_)});
     return files;
 }
 

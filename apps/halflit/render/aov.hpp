@@ -32,12 +32,13 @@ struct AovPlane {
 struct AovKind {
     std::string_view name;
     AovFormat format;
-    int channels;                                                   ///< of the plane that is drawn
-    float* Target::*floats = nullptr;                               ///< the plane that is drawn for it,
-    std::uint32_t* Target::*numbers = nullptr;                      ///< or this one
-    Result<void> (*derive)(const RenderJob&, AovPlane&) = nullptr;  ///< makes what is written of what was drawn; null: it is that
-    bool named = false;                                             ///< the numbers have names, which are written beside them
-    std::string_view meaning;                                       ///< for documents
+    int channels;                               ///< of the plane that is drawn
+    float* Target::*floats = nullptr;           ///< the plane that is drawn for it,
+    std::uint32_t* Target::*numbers = nullptr;  ///< or this one
+    /// Makes what is written of what a camera saw; null: it is that.
+    Result<void> (*derive)(const RenderJob&, const Camera&, AovPlane&) = nullptr;
+    bool named = false;        ///< the numbers have names, which are written beside them
+    std::string_view meaning;  ///< for documents
 };
 [[nodiscard]] std::span<const AovKind> aov_kinds();
 
@@ -69,7 +70,7 @@ struct AovFiles {
     std::optional<DepthRange> depth16;
 };
 
-/// Memory of the planes that a list of AOVs needs.
+/// Memory of the planes that a list of AOVs needs, for one picture after the other.
 class AovPlanes {
 public:
     AovPlanes(const std::vector<Aov>& aovs, const RenderJob& job);
@@ -77,9 +78,12 @@ public:
     /// Lets the planes be drawn too. The target must hold the region alone.
     void add_to(Target& target);
 
-    /// The files, of a picture that was drawn. Distances and positions are those of the file's own world, turned upright by `up`. Fails
-    /// (limit) for numbers that a 16-bit PNG does not hold.
-    [[nodiscard]] Result<AovFiles> encode(const std::string& picture, const RenderJob& job);
+    /// Makes what is written of what was drawn by a camera. Distances and positions become those of the file's own world, turned upright by
+    /// `up`.
+    [[nodiscard]] Result<void> derive(const RenderJob& job, const Camera& camera);
+
+    /// The files of what was derived; the scene may have changed since. Fails (limit) for numbers that a 16-bit PNG does not hold.
+    [[nodiscard]] Result<AovFiles> encode(const std::string& picture) const;
 
 private:
     struct Drawn {
@@ -96,6 +100,8 @@ private:
     std::vector<Aov> aovs_;
     int width_, height_;
     std::vector<Drawn> drawn_;
+    std::vector<AovPlane> derived_;  ///< of each AOV
+    std::string names_;              ///< names_text() if an AOV is named
 };
 
 }  // namespace halflit::cli
