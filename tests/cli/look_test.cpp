@@ -180,3 +180,17 @@ TEST_CASE("look: sheets are written for small sizes, points, lines, one triangle
             CHECK(read_picture(contents(folder.file("a.png"))).width > 2 * 16);
         }
 }
+
+TEST_CASE("look: --projection is refused for views that make no drawing", "[cli][look]") {
+    const auto look = [](const std::string& views) {
+        return run({"look", "sphere:100", "--size", "64", "--json", "-", "--projection", "first", "--view", views});
+    };
+    CHECK(look("front,top").code == 0);
+    CHECK(look("left,front,right").code == 0);
+    for (const std::string views : {"front", "right,top", "front,30,20"}) {
+        const Outcome refused = look(views);
+        CHECK(refused.code == 2);
+        CHECK(refused.err.find("--projection: expected views of a drawing") != std::string::npos);
+    }
+    CHECK(run({"look", "sphere:100", "--size", "64", "--json", "-", "--projection", "third"}).code == 0);
+}

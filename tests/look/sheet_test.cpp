@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 using namespace halflit;
 using namespace halflit::cli;
@@ -126,6 +128,57 @@ TEST_CASE("sheet: third angle has the top above the front and the right on its r
         CHECK(sign * (right.x - front.x) > 80);
         CHECK(std::abs(right.y - front.y) < 20);
     }
+}
+
+TEST_CASE("sheet: views with a front make a drawing, of two as of seven", "[look]") {
+    Sheet sheet = sheet_of(box_scene({3, 2, 1}), 160, 120);
+    using Names = std::vector<std::string>;
+    // Left to right and top to bottom; a dot has no view.
+    struct Case {
+        Names names, third, first;
+        int columns;
+    };
+    const Case cases[] = {{{"front", "right"}, {"front", "right"}, {"right", "front"}, 2},
+                          {{"top", "front"}, {"top", "front"}, {"front", "top"}, 1},
+                          {{"front", "right", "top"}, {"top", ".", "front", "right"}, {"right", "front", ".", "top"}, 2},
+                          {{"front", "back", "left", "bottom"},
+                           {"left", "front", "back", ".", "bottom", "."},
+                           {"bottom", ".", ".", "front", "left", "back"},
+                           3},
+                          {{"front", "right", "top", "iso", "left", "bottom", "back"},
+                           {".", "top", "iso", ".", "left", "front", "right", "back", ".", "bottom", ".", "."},
+                           {".", "bottom", ".", ".", "right", "front", "left", "back", "iso", "top", ".", "."},
+                           4}};
+    for (const Case& one : cases) {
+        std::vector<ViewShot> shots;
+        for (const std::string& name : one.names) {
+            ViewShot& shot = shots.emplace_back(sheet.shots[0]);
+            shot.name = name;
+            const auto grey = static_cast<std::uint8_t>(100 + 10 * shots.size());
+            for (std::size_t i = 0; i < shot.picture.rgba8.size(); ++i) shot.picture.rgba8[i] = i % 4 == 3 ? 255 : i % 4 == 1 ? 0 : grey;
+        }
+        const std::vector<ViewContent> contents(shots.size(), sheet.contents[0]);
+        CHECK(make_drawing(one.names));
+        for (const bool third : {true, false}) {
+            const auto page = look_sheet(sheet.job, shots, contents, third ? Projection::third_angle : Projection::first_angle, "");
+            REQUIRE(page);
+            const Names& expected = third ? one.third : one.first;
+            const int rows = static_cast<int>(expected.size()) / one.columns;
+            CHECK(page->width == 8 + one.columns * 168);
+            Names found;
+            for (int row = 0; row < rows; ++row)
+                for (int column = 0; column < one.columns; ++column) {
+                    // A pixel of the picture's upper left part: no marks are there.
+                    const int x = 8 + column * 168 + 20, y = 8 + row * ((page->height - 8) / rows) + 30;
+                    const auto* p = &page->rgba8[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(page->width) +
+                                                      static_cast<std::size_t>(x))];
+                    found.push_back(p[1] == 0 ? one.names[static_cast<std::size_t>(p[0] - 110) / 10] : ".");
+                }
+            CHECK(found == expected);
+        }
+    }
+    for (const Names& names : {Names{}, Names{"front"}, Names{"right", "top"}, Names{"front", "front"}, Names{"front", "30,20"}})
+        CHECK_FALSE(make_drawing(names));
 }
 
 TEST_CASE("sheet: dimensions and axes leave the pixels of the model as they are", "[look]") {

@@ -102,7 +102,10 @@ std::vector<FlagGroup> look_flags(LookOptions& o) {
     groups.insert(
         groups.begin(),
         {"Sheet",
-         {{"--projection", "third|first", "Third angle: the top is above the front; first angle: below it (default third)",
+         {{"--projection", "third|first",
+           "Third angle: the top is above the front, the right side on its right; first angle: the other way round. For views of sides, "
+           "with "
+           "the front among them (default third)",
            [&o](const std::string& text) -> Result<void> {
                if (text != "third" && text != "first") return fail(ErrorCode::usage, "expected third or first, found '" + text + "'");
                o.projection = text == "first" ? Projection::first_angle : Projection::third_angle;
@@ -120,6 +123,15 @@ Result<RenderJob> look_job(LookOptions& options) {
     if (options.film.turntable > 0 || options.film.frames) return fail(ErrorCode::usage, "look: expected views, found moving pictures");
     if (options.settings.region.width > 0) return fail(ErrorCode::usage, "--region: expected whole pictures in a sheet");
     set_defaults(options);
+    if (options.projection) {
+        std::vector<std::string> names;
+        for (const GivenView& view : options.film.views) names.push_back(view.name);
+        if (!make_drawing(names))
+            return fail(ErrorCode::usage,
+                        "--projection: expected views of a drawing: front, and others of right, left, top, bottom, back and iso; "
+                        "found " +
+                            (names.empty() ? std::string("one camera") : joined(names, ", ")));
+    }
     return make_render_job(options, usual_size(options));
 }
 
@@ -155,7 +167,7 @@ Result<LookResult> look(const LookOptions& given) {
         result.certificate = certificate_line(*certificate, shots.size());
     }
     if (options.sheet) {
-        auto sheet = look_sheet(job, shots, *contents, options.projection, look_footer(job, *measures));
+        auto sheet = look_sheet(job, shots, *contents, options.projection.value_or(Projection::third_angle), look_footer(job, *measures));
         if (!sheet) return tl::unexpected(sheet.error());
         result.sheet = std::move(*sheet);
     }

@@ -15,7 +15,7 @@ namespace halflit::cli {
 inline constexpr PictureSize kViewSize{480, 400};  ///< of each view without --size
 
 struct LookOptions : RenderOptions {
-    Projection projection = Projection::third_angle;
+    std::optional<Projection> projection;  ///< none: third angle, where the views make a drawing
     bool perspective = false;
     int certify = 0;  ///< pixels that count as seen; 0: no certificate
     int most_views = 24;

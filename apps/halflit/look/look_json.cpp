@@ -139,6 +139,8 @@ Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewS
     report["views"] = std::move(views);
     report["parts"] = std::move(parts);
     report["never_seen"] = std::move(never_seen);
+    Json& removed = report["removed_by_section"] = Json::array();
+    for (const int part : job.removed) removed.push_back(part + 1);
     report["warnings"] = job.warnings;
     return report;
 }

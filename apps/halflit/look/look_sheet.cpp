@@ -10,6 +10,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
 
 namespace halflit::cli {
 namespace {
@@ -97,7 +102,51 @@ SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent&
     return {shot.name, note, canvas.take(), {}};
 }
 
+/// Place of a side in a drawing of third angle, in cells from the front: to the right and down. Whatever is on the right of the front is
+/// drawn on its right. In first angle it is on the other side, but for the back, which comes last in both.
+struct DrawingPlace {
+    std::string_view name;
+    int right, down;
+};
+constexpr DrawingPlace kDrawing[] = {{"front", 0, 0},  {"right", 1, 0}, {"left", -1, 0}, {"top", 0, -1},
+                                     {"bottom", 0, 1}, {"iso", 1, -1},  {"back", 2, 0}};
+
+const DrawingPlace* place_in_drawing(std::string_view name) {
+    const auto* const found = std::find_if(std::begin(kDrawing), std::end(kDrawing), [&](const auto& one) { return one.name == name; });
+    return found != std::end(kDrawing) ? found : nullptr;
+}
+
+/// The cells row by row, in the columns and rows that have one; cells between them are empty.
+struct Drawing {
+    std::vector<SheetCell> cells;
+    int columns = 0;
+};
+Drawing drawing_of(std::vector<SheetCell> cells, Projection projection) {
+    const int side = projection == Projection::third_angle ? 1 : -1;
+    std::map<int, std::map<int, SheetCell*>> rows;
+    std::set<int> columns;
+    for (SheetCell& cell : cells) {
+        const DrawingPlace& place = *place_in_drawing(cell.title);
+        const int right = place.name == "back" ? place.right : side * place.right;
+        rows[side * place.down][right] = &cell;
+        columns.insert(right);
+    }
+    Drawing drawing{{}, static_cast<int>(columns.size())};
+    for (auto& [down, row] : rows)
+        for (const int column : columns) {
+            const auto found = row.find(column);
+            drawing.cells.push_back(found != row.end() ? std::move(*found->second) : SheetCell{});
+        }
+    return drawing;
+}
+
 }  // namespace
+
+bool make_drawing(std::span<const std::string> names) {
+    std::set<std::string> once(names.begin(), names.end());
+    return once.size() == names.size() && names.size() > 1 && once.contains("front") &&
+           std::all_of(names.begin(), names.end(), [](const std::string& name) { return place_in_drawing(name) != nullptr; });
+}
 
 ShownUnit shown_unit(const SceneSource& source, double largest) {
     const double scale = 1.0 / source.placement.scale;
@@ -113,14 +162,11 @@ Result<Image> look_sheet(const RenderJob& job, std::span<const ViewShot> shots, 
     const ShownUnit unit = shown_unit(job.source, std::max({size.x, size.y, size.z}));
     std::vector<SheetCell> cells;
     for (std::size_t i = 0; i < shots.size(); ++i) cells.push_back(cell_of(job, shots[i], contents[i], unit));
-    const std::array<const char*, 4> drawing =
-        projection == Projection::third_angle ? std::array{"top", "iso", "front", "right"} : std::array{"right", "front", "iso", "top"};
-    std::vector<SheetCell> arranged;
-    for (const char* const name : drawing)
-        for (SheetCell& cell : cells)
-            if (cell.title == name && arranged.size() < drawing.size() && cells.size() == drawing.size()) arranged.push_back(cell);
-    const bool is_drawing = arranged.size() == drawing.size();
-    return lay_out(is_drawing ? arranged : cells, is_drawing ? 2 : 0, footer);
+    std::vector<std::string> names;
+    for (const ViewShot& shot : shots) names.push_back(shot.name);
+    if (!make_drawing(names)) return lay_out(cells, 0, footer);
+    const Drawing drawing = drawing_of(std::move(cells), projection);
+    return lay_out(drawing.cells, drawing.columns, footer);
 }
 
 }  // namespace halflit::cli

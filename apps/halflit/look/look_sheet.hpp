@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace halflit::cli {
 
@@ -19,8 +20,10 @@ struct ShownUnit {
 /// How views lie beside each other: third angle has the view from above above the front, first angle below it.
 enum class Projection : std::uint8_t { third_angle, first_angle };
 
-/// Draws dimensions, axes and scale into the shots' pictures, and lays them out. Front, right, top and iso are arranged as a drawing; other
-/// views come row by row.
+/// False if views of these names make no drawing: then they come row by row. Sides make one with the front, each of them once.
+[[nodiscard]] bool make_drawing(std::span<const std::string> names);
+
+/// Draws dimensions, axes and scale into the shots' pictures, and lays them out: as a drawing, if they make one.
 [[nodiscard]] Result<Image> look_sheet(const RenderJob& job, std::span<const ViewShot> shots, std::span<const ViewContent> contents,
                                        Projection projection, const std::string& footer);
 

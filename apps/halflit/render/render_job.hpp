@@ -40,6 +40,7 @@ struct RenderJob {
     double timeout_s = 0.0;         ///< from then on; 0: none
     std::vector<PartLook> looks{};  ///< of each part; empty: all as they are
     SectionReport sections;         ///< of the flags' planes
+    std::vector<int> removed;       ///< indices into Parts::list() of parts that these planes remove wholly, in order
     Film film;                      ///< what the frames of a moving picture share
     std::vector<std::string> warnings;
     std::vector<std::string> choices;  ///< what was chosen, one line each

@@ -27,6 +27,16 @@ CutPlane drawn_plane(const GivenSection& given, const Placement& place, const Bo
     return {normal, dot(normal, along) * place_along};
 }
 
+/// Of each part, whether any of it is drawn.
+std::vector<bool> shown_parts(const RenderJob& job) {
+    const Parts& parts = *job.source.parts;
+    std::vector<bool> shown(parts.list().size(), false);
+    for (std::size_t i = 0; i < job.scene().instances.size(); ++i)
+        if (const int part = parts.of_instance(i); part >= 0 && job.scene().instances[i].visible)
+            shown[static_cast<std::size_t>(part)] = true;
+    return shown;
+}
+
 void tell_sections(RenderJob& job, const RenderOptions& options) {
     const SectionReport& report = job.sections;
     if (report.cuts.empty()) job.warnings.push_back("--section: no plane goes through an object");
@@ -62,11 +72,15 @@ Result<void> cut_job(RenderJob& job, const RenderOptions& options) {
     SectionSettings settings;
     settings.hatch = options.hatch;
     settings.hatch_spacing = options.hatch_spacing * job.source.placement.scale;
+    const std::vector<bool> before = shown_parts(job);
     auto report = cut_scene(job.scene(), planes, settings, job.source.parts->of_instances());
     if (!report) return fail(report.error().code, "--section: " + report.error().message);
     job.sections = std::move(*report);
     for (const SectionCut& cut : job.sections.cuts)
         if (cut.cap >= 0) job.source.parts->add_instance(static_cast<std::size_t>(cut.cap), cut.part);
+    const std::vector<bool> after = shown_parts(job);
+    for (std::size_t part = 0; part < before.size(); ++part)
+        if (before[part] && !after[part]) job.removed.push_back(static_cast<int>(part));
     tell_sections(job, options);
     return {};
 }
