@@ -1,5 +1,6 @@
 // halflit mcp: the Model Context Protocol over pipes, compared with the command line.
 #include "tests/cli/mcp_server.hpp"
+#include "tests/cli/schema_checker.hpp"
 
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
@@ -50,6 +51,14 @@ std::vector<std::string> words_of(const std::string& command, const json& argume
     }
     words.insert(words.end(), {"-o", output});
     return words;
+}
+
+/// Of the answers of each tool.
+std::map<std::string, json> schemas_of(McpServer& server) {
+    std::map<std::string, json> schemas;
+    const json answer = server.ask("tools/list");
+    for (const json& tool : answer["result"]["tools"]) schemas[tool["name"]] = tool["outputSchema"];
+    return schemas;
 }
 
 struct Models {
@@ -124,6 +133,81 @@ TEST_CASE("mcp: look gives the sheet and the report of the command", "[cli][mcp]
     CHECK(server.end() == 0);
 }
 
+TEST_CASE("mcp: answers of every tool are valid under the schema that it declares", "[cli][mcp]") {
+    const Models models;
+    write_contents(models.folder.file("empty.gltf"), R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
+    McpServer server(models.folder.path());
+    server.initialize();
+    const std::map<std::string, json> schemas = schemas_of(server);
+    for (const std::string model : {"box.stl", "assembly.gltf", "empty.gltf", "demo"})
+        for (const auto& [tool, schema] : schemas) {
+            INFO(tool << " of " << model);
+            CHECK(schema["type"] == "object");
+            CHECK(schema["properties"].contains("left_out"));
+            const bool certifies = tool == "look" && model == "box.stl";
+            json arguments{{"size", "64"}};
+            if (tool == "compare") arguments.update({{"a", model}, {"b", "box.stl"}});
+            if (tool != "compare") arguments["path"] = model;
+            if (tool == "section") arguments["section"] = {"x=50%"};
+            if (tool == "explain") arguments["pixel"] = {"32,32", "0,0"};
+            if (tool == "measure" || tool == "info") arguments.erase("size");
+            if (certifies) arguments["certify"] = 4;
+            const json result = server.call(tool, arguments);
+            INFO(text_of(result));
+            REQUIRE(result["isError"] == false);
+            const Schema checker = Schema::whole(schema);
+            CHECK(checker.fault(result["structuredContent"]) == "");
+            CHECK(checker.unknown().empty());
+            // The text ends with the same object, in one line.
+            const std::string text = text_of(result);
+            CHECK(json::parse(text.substr(text.rfind('\n', text.size() - 2) + 1)) == result["structuredContent"]);
+        }
+    CHECK(schemas.size() == 7);
+}
+
+TEST_CASE("mcp: what a long report leaves out is counted, list by list", "[cli][mcp]") {
+    const Models models;
+    write_contents(models.folder.file("many.obj"), [] {
+        std::string text;  // 2000 triangles that face up and down in turn: from no side are all of them seen
+        for (int i = 0; i < 2000; ++i) {
+            const std::string name = "o " + std::string(40, 'n') + std::to_string(i) + "\n";
+            const auto vertex = [&](double x, double z) { return "v " + std::to_string(i + x) + " 0 " + std::to_string(z) + "\n"; };
+            text += name + vertex(0, 0) + vertex(0.5, 0) + vertex(0, 1) + "f " + (i % 2 == 0 ? "-3 -2 -1\n" : "-3 -1 -2\n");
+        }
+        return text;
+    }());
+    McpServer server(models.folder.path());
+    server.initialize();
+    const json schema = schemas_of(server).at("look");
+    const json arguments{{"size", "64"}, {"certify", 1}, {"view", {"front"}}};
+    const json result = server.call("look", arguments_of("many.obj", arguments));
+    const RunSettings in_folder{.folder = models.folder.path()};
+    (void)run({"look", "many.obj", "--size", "64", "--certify", "1", "--view", "front", "--json", "whole.json"}, in_folder);
+    const json whole = json::parse(contents(models.folder.file("whole.json")));
+    const json cut = result["structuredContent"];
+    CHECK(whole.dump().size() > 200'000);
+    CHECK(cut.dump().size() <= 60'000);
+    CHECK(text_of(result).size() < 80'000);
+    CHECK(Schema::whole(schema).fault(cut) == "");
+    CHECK(!whole.contains("left_out"));
+    REQUIRE(cut["left_out"].size() > 1);
+    std::set<std::string> lists;
+    for (const json& left : cut["left_out"]) {
+        const json::json_pointer list(left["list"].get<std::string>());
+        INFO(left.dump());
+        lists.insert(left["list"]);
+        const json &kept = cut[list], &all = whole[list];
+        CHECK(kept.size() + left["items"].get<std::size_t>() == all.size());
+        CHECK(kept[0].dump().substr(0, 30) == all[0].dump().substr(0, 30));
+    }
+    CHECK(lists.contains("/parts"));
+    CHECK(cut["parts"][0] == whole["parts"][0]);
+    CHECK(cut["views"][0]["camera"] == whole["views"][0]["camera"]);
+    CHECK(cut["certificate"]["triangles"] == whole["certificate"]["triangles"]);
+    // Lists that were not cut are whole.
+    CHECK(cut["views"].size() == whole["views"].size());
+}
+
 TEST_CASE("mcp: ten calls on one server give the pictures of the command line", "[cli][mcp]") {
     const Models models;
     McpServer server(models.folder.path());
@@ -170,6 +254,22 @@ TEST_CASE("mcp: measures and sections of a box are those of its sides", "[cli][m
     CHECK(cut["structuredContent"]["sections"][0]["area"] == 600);
     CHECK(contains(text_of(cut), "section x=50%: area 600\n"));
     CHECK(picture_of(cut).starts_with("\x89PNG"));
+    // The outer box spans -0.5 to 0.5, the inner one half of it.
+    const auto removed = [&](const std::string& plane) {
+        const json look = server.call("look", arguments_of("assembly.gltf", {{"section", {plane}}, {"size", "64"}}))["structuredContent"];
+        return std::pair(look["removed_by_section"], look["never_seen"]);
+    };
+    CHECK(removed("x=0.1") == std::pair(json::array(), json::array()));
+    CHECK(removed("x=-0.3") == std::pair(json::array({2}), json::array()));
+    CHECK(removed("x=-0.6").first == json::array({1, 2}));
+    const json bodies = server.call("measure", arguments_of("assembly.gltf"))["structuredContent"]["measures"]["body_list"];
+    REQUIRE(bodies.size() == 2);
+    CHECK(bodies[0]["part"] == 1);
+    CHECK(bodies[1]["part"] == 2);
+    CHECK(bodies[1]["min"] == json({-0.25, -0.25, -0.25}));
+    CHECK(bodies[1]["max"] == json({0.25, 0.25, 0.25}));
+    CHECK(bodies[1]["center"] == json({0, 0, 0}));
+    CHECK(bodies[1]["volume"] == 0.125);
     const json info = server.call("info", arguments_of("box.stl"));
     CHECK(info["structuredContent"] == json::parse(run({"info", "box.stl", "--json"}, {.folder = models.folder.path()}).out));
 }

@@ -1,149 +1,19 @@
 #include "tests/cli/program.hpp"
+#include "tests/cli/schema_checker.hpp"
 #include "tests/io/animated_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
 #include "tests/support/skip.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <regex>
-#include <set>
 
 using namespace halflit::test;
 
 namespace {
 
 using Json = nlohmann::json;
-
-/// A checker of the part of JSON Schema that docs/schema uses. It is stricter than the standard: an object may have no key that the schema
-/// does not describe.
-class Schema {
-public:
-    explicit Schema(const std::string& file) : file_(file), root_(load(file)) {}
-
-    /// The first fault, as a path and a reason; empty: none.
-    [[nodiscard]] std::string fault(const Json& value) const { return check(value, root_, file_, "", true); }
-
-    /// Keys of the schema language that the checker met and does not know.
-    [[nodiscard]] const std::set<std::string>& unknown() const { return unknown_; }
-
-private:
-    static Json load(const std::string& file) {
-        Json schema = Json::parse(contents(HALFLIT_SOURCE_DIR "/docs/schema/" + file), nullptr, false);
-        INFO(file);
-        REQUIRE(!schema.is_discarded());
-        return schema;
-    }
-
-    struct Place {
-        Json schema;
-        std::string file;
-    };
-    static Place resolved(const std::string& ref, const std::string& file) {
-        const std::size_t hash = ref.find('#');
-        const std::string other = hash == 0 ? file : ref.substr(0, hash);
-        return {load(other).at(Json::json_pointer(ref.substr(hash + 1))), other};
-    }
-
-    /// Keys that the schema describes, those of allOf and $ref too.
-    static void collect_keys(const Json& schema, const std::string& file, std::set<std::string>& keys) {
-        if (schema.contains("properties"))
-            for (const auto& [key, value] : schema["properties"].items()) keys.insert(key);
-        if (schema.contains("allOf"))
-            for (const Json& part : schema["allOf"]) collect_keys(part, file, keys);
-        if (schema.contains("$ref")) {
-            const Place place = resolved(schema["$ref"], file);
-            collect_keys(place.schema, place.file, keys);
-        }
-    }
-
-    static bool is_type(const Json& value, const std::string& type) {
-        if (type == "object") return value.is_object();
-        if (type == "array") return value.is_array();
-        if (type == "string") return value.is_string();
-        if (type == "boolean") return value.is_boolean();
-        if (type == "integer") return value.is_number_integer();
-        if (type == "number") return value.is_number();
-        return type == "null" && value.is_null();
-    }
-
-    /// `whole`: no other schema describes this value too, so that unknown keys are faults.
-    std::string check(const Json& value, const Json& schema, const std::string& file, const std::string& path, bool whole) const {
-        static const std::set<std::string> known = {"$schema",     "$id",
-                                                    "$defs",       "title",
-                                                    "description", "type",
-                                                    "properties",  "required",
-                                                    "items",       "minItems",
-                                                    "maxItems",    "minLength",
-                                                    "maxLength",   "minimum",
-                                                    "maximum",     "enum",
-                                                    "const",       "pattern",
-                                                    "anyOf",       "allOf",
-                                                    "$ref",        "additionalProperties"};
-        for (const auto& [key, rule] : schema.items())
-            if (known.count(key) == 0) unknown_.insert(key);
-        const auto bad = [&](const std::string& why) { return (path.empty() ? "/" : path) + ": " + why; };
-        if (schema.contains("$ref")) {
-            const Place place = resolved(schema["$ref"], file);
-            if (std::string fault = check(value, place.schema, place.file, path, whole); !fault.empty()) return fault;
-        }
-        if (schema.contains("allOf")) {
-            for (const Json& part : schema["allOf"])
-                if (std::string fault = check(value, part, file, path, false); !fault.empty()) return fault;
-        }
-        if (schema.contains("anyOf")) {
-            std::string faults;
-            bool good = false;
-            for (const Json& part : schema["anyOf"]) {
-                const std::string fault = check(value, part, file, path, whole);
-                good = good || fault.empty();
-                faults += " [" + fault + "]";
-            }
-            if (!good) return bad("fits none of" + faults);
-        }
-        if (schema.contains("const") && value != schema["const"]) return bad("is not " + schema["const"].dump());
-        if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
-            return bad(value.dump() + " is not in " + schema["enum"].dump());
-        if (schema.contains("type") && !is_type(value, schema["type"]))
-            return bad(value.dump().substr(0, 80) + " is no " + schema["type"].dump());
-        if (schema.contains("minimum") && value < schema["minimum"]) return bad(value.dump() + " is too small");
-        if (schema.contains("maximum") && value > schema["maximum"]) return bad(value.dump() + " is too large");
-        if (schema.contains("pattern") && !std::regex_search(value.get<std::string>(), std::regex(schema["pattern"].get<std::string>())))
-            return bad(value.dump() + " does not match");
-        if (value.is_array()) {
-            if (schema.contains("minItems") && value.size() < schema["minItems"]) return bad("has too few items");
-            if (schema.contains("maxItems") && value.size() > schema["maxItems"]) return bad("has too many items");
-            if (schema.contains("items"))
-                for (std::size_t i = 0; i < value.size(); ++i)
-                    if (std::string fault = check(value[i], schema["items"], file, path + "/" + std::to_string(i), true); !fault.empty())
-                        return fault;
-        }
-        if (!value.is_object()) return "";
-        if (schema.contains("required"))
-            for (const Json& key : schema["required"])
-                if (!value.contains(key.get<std::string>())) return bad("lacks " + key.dump());
-        std::set<std::string> keys;
-        collect_keys(schema, file, keys);
-        const bool open = schema.contains("additionalProperties") && schema["additionalProperties"].is_object();
-        const bool described = !keys.empty() && !schema.contains("anyOf");
-        for (const auto& [key, item] : value.items()) {
-            const std::string below = path + "/" + key;
-            if (schema.contains("properties") && schema["properties"].contains(key)) {
-                if (std::string fault = check(item, schema["properties"][key], file, below, true); !fault.empty()) return fault;
-            } else if (open) {
-                if (std::string fault = check(item, schema["additionalProperties"], file, below, true); !fault.empty()) return fault;
-            } else if (whole && described && keys.count(key) == 0) {
-                return below + ": is not in the schema";
-            }
-        }
-        return "";
-    }
-
-    std::string file_;
-    Json root_;
-    mutable std::set<std::string> unknown_;
-};
 
 void check_report(const std::string& kind, const std::string& text) {
     const Json json = Json::parse(text, nullptr, false);
@@ -271,6 +141,7 @@ TEST_CASE("schema: look has the keys that its schema describes", "[cli][schema]"
     const TemporaryFolder folder;
     write_contents(folder.file("empty.gltf"), R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
     check_report("look", output_of({"look", folder.file("empty.gltf"), "--size", "64", "--json", "-"}, 1));
+    check_report("look", output_of({"look", "sphere:100", "--size", "64", "--json", "-", "--section", "x=50%"}));
 }
 
 TEST_CASE("schema: the report of view has the keys that its schema describes", "[cli][schema]") {

@@ -40,7 +40,9 @@ Keys of the report:
     R"(`pixels_alone` without the others, and `hidden_by`, the part that hides most of it |
 | `parts[].seen_in` | names of the views that show the part |
 | `never_seen` | numbers of parts that no view shows; numbers begin at 1 |
-| `measures` | box, area, volume, bodies, `watertight`, `open_edges` of the whole model, in the file's unit |
+| `measures` | box, area, volume, `watertight`, `open_edges` of the whole model, in the file's unit; `bodies` counts them, )"
+    R"(`body_list` has box, centre and edges of each |
+| `removed_by_section` | numbers of parts that `--section` removes wholly; no view can show them |
 | `sections` | with `--section`: area of each cut, and whether its outline is closed |
 | `certificate` | with `--certify`: which triangles were seen |
 
@@ -64,7 +66,8 @@ constexpr Recipe kRecipes[] = {
     {"Check a part that was generated",
      "Look, and read `good`, `measures.size` and `measures.watertight`. A part to be printed must be watertight, of positive volume (a "
      "negative one is inside out), without `crowded_edges` (faces that are there twice). `bodies` counts closed surfaces: a cavity is one "
-     "too. Then certify: views are added until each triangle was seen, or is known to be hidden.",
+     "too. `body_list` tells where each lies: one that floats is beside the others. Then certify: views are added until each triangle was "
+     "seen, or is known to be hidden.",
      "halflit look part.stl --json look.json -o look.png\n"
      "halflit look part.stl --json certificate.json --certify 4"},
     {"Find hidden parts",
@@ -97,7 +100,9 @@ changed pixel is a change of the model or of the flags.
     halflit mcp --root . --max-memory 4096
 
 speaks the Model Context Protocol on standard input and output. An argument has the name of the flag: `"hidden-edges": "dashed"`. Paths are
-relative to the root. Text of an answer begins with the faults; then comes the report, then the picture. The server keeps the )"
+relative to the root. Text of an answer begins with the faults; then comes the report, then the picture. Each tool declares the schema of
+its report, which is the answer's `structuredContent` too. Reports are at most 60 kB: `left_out` counts what long lists lack; with `--json
+FILE` the command writes them whole. The server keeps the )"
                                         R"(last models, so
 that a second call on the same file is faster, and loads a file anew when it has changed. It writes nothing but what `output` names.
 

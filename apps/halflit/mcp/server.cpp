@@ -1,6 +1,7 @@
 #include "apps/halflit/mcp/server.hpp"
 
 #include "apps/halflit/farm/picture_file.hpp"
+#include "apps/halflit/mcp/answer_limits.hpp"
 #include "apps/halflit/mcp/kept_scenes.hpp"
 #include "apps/halflit/mcp/message_queue.hpp"
 #include "apps/halflit/mcp/session.hpp"
@@ -38,9 +39,12 @@ Json result_of(ToolAnswer answer, bool structured) {
         answer.picture.bytes.clear();
         answer.notes.emplace_back("The picture is too large to be sent; a smaller size or an output shows it");
     }
+    answer.report = bounded_report(std::move(answer.report));
+    if (answer.report.contains("left_out"))
+        answer.notes.emplace_back("Long lists are cut: left_out counts what is not here; the command line's reports are whole");
     std::string text;
     for (const std::string& note : answer.notes) text += note + "\n";
-    Json content = Json::array({text_content(text + to_text(answer.report, true))});
+    Json content = Json::array({text_content(bounded_lines(std::move(text)) + to_text(answer.report, true))});
     if (!answer.picture.bytes.empty())
         content.push_back({{"type", "image"}, {"data", base64(answer.picture.bytes)}, {"mimeType", answer.picture.mime_type}});
     Json result{{"content", std::move(content)}, {"isError", false}};

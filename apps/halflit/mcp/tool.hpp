@@ -45,6 +45,7 @@ struct ToolCall {
 
 struct Tool {
     std::string name, help;
+    std::string_view schema;              ///< of the report: a file of docs/schema, or a place in one
     bool writes = false;                  ///< it has --output
     std::vector<std::string_view> shown;  ///< long names of flags in the schema; others of the call are taken too
     std::vector<std::string_view> required;
@@ -53,7 +54,7 @@ struct Tool {
 
 [[nodiscard]] std::span<const Tool> all_tools();
 
-/// {"name", "description", "inputSchema", "annotations"}
+/// {"name", "description", "inputSchema", "outputSchema", "annotations"}
 [[nodiscard]] Json tool_json(const Tool& tool);
 
 /// Reads arguments by the call's flags: "hidden-edges" is --hidden-edges. Numbers and true for a switch are taken as their texts, and a

@@ -1,6 +1,7 @@
 #include "apps/halflit/mcp/tool.hpp"
 #include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/render/built_in_scenes.hpp"
+#include "apps/halflit/report/schemas.hpp"
 
 #include <algorithm>
 #include <array>
@@ -109,9 +110,12 @@ Json tool_json(const Tool& tool) {
     for (const std::string_view name : tool.shown)
         if (const Flag* const flag = find_flag(call, name)) properties[std::string(name)] = property_of(*flag);
     Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"required", tool.required}};
+    Json answer = whole_schema(tool.schema);
+    answer["properties"].update(whole_schema("answer-1.schema.json")["properties"]);
     return {{"name", tool.name},
             {"description", tool.help},
             {"inputSchema", std::move(schema)},
+            {"outputSchema", std::move(answer)},
             {"annotations", {{"readOnlyHint", !tool.writes}, {"idempotentHint", true}, {"openWorldHint", false}}}};
 }
 

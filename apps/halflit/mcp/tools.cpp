@@ -68,13 +68,25 @@ struct LookCall : LookOptions {
     std::string view_of_pixel;
 };
 
+/// ": bodies 2, 5", those of the list that have such edges; nothing where there is one body.
+std::string bodies_with(const Json& measures, const char* edges) {
+    constexpr std::size_t kMostNamed = 10;
+    std::vector<std::string> numbers;
+    for (const Json& body : measures["body_list"])
+        if (body[edges].get<std::uint64_t>() > 0) numbers.push_back(body["number"].dump());
+    if (measures["bodies"] == 1 || numbers.empty()) return "";
+    const bool more = numbers.size() > kMostNamed;
+    numbers.resize(std::min(numbers.size(), kMostNamed));
+    return fmt::format(" ({} {}{} of body_list)", numbers.size() == 1 ? "body" : "bodies", joined(numbers, ", "), more ? " and more" : "");
+}
+
 /// What measures tell of the surface.
 std::vector<std::string> notes_of_measures(const Json& measures) {
     std::vector<std::string> notes;
     if (!measures.is_object()) return notes;
     const auto edges = [&](const char* key, const char* words) {
         const auto n = measures[key].get<std::uint64_t>();
-        return n > 0 ? fmt::format(", {} {}", n, words) : std::string();
+        return n > 0 ? fmt::format(", {} {}{}", n, words, bodies_with(measures, key)) : std::string();
     };
     if (measures["watertight"] == false)
         notes.push_back("FAULT: not watertight" + edges("open_edges", "open edges") + edges("flipped_edges", "flipped edges") +
@@ -216,7 +228,10 @@ Result<ToolAnswer> run_measure_tool(const RenderOptions& options) {
         answer.notes.emplace_back("FAULT: nothing was measured: there are no triangles, or more than 2^25 by drawing meshes again");
     for (const std::string& note : notes_of_measures(*measures)) answer.notes.push_back(note);
     for (const std::string& warning : job->warnings) answer.notes.push_back("WARNING: " + warning);
-    answer.report = {{"scene", job->source.name}, {"measures", std::move(*measures)}, {"parts", std::move(*parts)}};
+    answer.report = report_head("measure");
+    answer.report["scene"] = job->source.name;
+    answer.report["measures"] = std::move(*measures);
+    answer.report["parts"] = std::move(*parts);
     return answer;
 }
 
@@ -236,6 +251,7 @@ std::span<const Tool> all_tools() {
          "making or changing a model. Lines that begin with FAULT come first: a view with a fault (blank, cropped, cut, inside, tiny) must "
          "not "
          "be relied on. Takes all flags of `halflit look` by their names",
+         "look-1.schema.json",
          true,
          {"path", "view", "section", "edges", "hidden-edges", "size", "perspective", "projection", "certify", "up", "output"},
          {"path"},
@@ -244,6 +260,7 @@ std::span<const Tool> all_tools() {
          "Draw one picture of a 3D model from a view or a placed camera, shaded and lit. Takes all flags of `halflit render` that decide "
          "the "
          "picture by their names",
+         "report-1.schema.json#/$defs/picture",
          true,
          {"path", "view", "azimuth", "elevation", "zoom", "fov", "camera", "camera-position", "camera-target", "size", "samples",
           "background", "light", "env", "ground", "edges", "section", "up", "output"},
@@ -251,12 +268,14 @@ std::span<const Tool> all_tools() {
          render_call},
         {"measure",
          "Measure a 3D model and each of its parts: box, area, volume, centre, bodies, and whether the surface is watertight",
+         "measure-1.schema.json",
          false,
          {"path", "section", "up"},
          {"path"},
          scene_call<run_measure_tool>},
         {"section",
          "Cut a 3D model by planes: the areas of the cuts, and a sheet of views of what is left",
+         "look-1.schema.json",
          true,
          {"path", "section", "section-hatch", "view", "edges", "size", "perspective", "up", "output"},
          {"path", "section"},
@@ -264,6 +283,7 @@ std::span<const Tool> all_tools() {
         {"compare",
          "Compare two versions of a 3D model: pictures of both by one camera with what changed, parts, measures, and the distance of the "
          "surfaces with its bound",
+         "compare-1.schema.json",
          true,
          {"a", "b", "view", "max", "size", "up", "output"},
          {"a", "b"},
@@ -271,12 +291,14 @@ std::span<const Tool> all_tools() {
         {"explain",
          "Tell what made a pixel of a view of `look`: part, triangle, material, lights, and what lies before and behind it. The views are "
          "those of look with the same arguments; boxes in its report are in the same pixels",
+         "explain-1.schema.json",
          false,
          {"path", "pixel", "of", "view", "section", "size", "perspective", "up"},
          {"path", "pixel"},
          explain_call},
         {"info",
          "Describe a 3D model's file: format, counts, names, measures, materials and what drawing it requires",
+         "info-1.schema.json",
          false,
          {"path", "scene", "animation", "variant", "up"},
          {"path"},

@@ -1,0 +1,47 @@
+// A checker of the part of JSON Schema that docs/schema uses.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <string>
+#include <utility>
+
+namespace halflit::test {
+
+/// It is stricter than the standard: an object may have no key that the schema does not describe.
+class Schema {
+public:
+    /// A file of docs/schema.
+    explicit Schema(const std::string& file);
+    /// A schema that refers to no file.
+    [[nodiscard]] static Schema whole(nlohmann::json root) {
+        Schema schema;
+        schema.root_ = std::move(root);
+        return schema;
+    }
+
+    /// The first fault, as a path and a reason; empty: none.
+    [[nodiscard]] std::string fault(const nlohmann::json& value) const { return check(value, root_, file_, "", true); }
+
+    /// Keys of the schema language that the checker met and does not know.
+    [[nodiscard]] const std::set<std::string>& unknown() const { return unknown_; }
+
+private:
+    Schema() = default;
+    struct Place {
+        nlohmann::json schema;
+        std::string file;
+    };
+    [[nodiscard]] Place resolved(const std::string& ref, const std::string& file) const;
+    void collect_keys(const nlohmann::json& schema, const std::string& file, std::set<std::string>& keys) const;
+    /// `whole`: no other schema describes this value too, so that unknown keys are faults.
+    [[nodiscard]] std::string check(const nlohmann::json& value, const nlohmann::json& schema, const std::string& file,
+                                    const std::string& path, bool whole) const;
+
+    std::string file_;
+    nlohmann::json root_;
+    mutable std::set<std::string> unknown_;
+};
+
+}  // namespace halflit::test
