@@ -1,5 +1,7 @@
 """Planes beside the picture, parts of it, the caller's memory, files and notebooks."""
+import base64
 import io
+import json
 import os
 import tempfile
 import unittest
@@ -78,13 +80,29 @@ class Planes(unittest.TestCase):
 
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "x.png")
-            flags = ["--size", "80x60", "-o", path, "--aov", "id,coverage,lights,mesh,material", "--quiet"]
+            flags = ["--size", "80x60", "-o", path, "--aov", "id,coverage,lights,mesh,material,part", "--quiet"]
             subprocess.run([support.PROGRAM, "render", "demo", *flags], check=True)
-            planes = halflit.render("demo", (80, 60), aovs=["id", "coverage", "lights", "mesh", "material"]).aovs
-            for name, scale in (("id", 1), ("lights", 1), ("mesh", 1), ("material", 1), ("coverage", 65535)):
+            planes = halflit.render("demo", (80, 60), aovs=["id", "coverage", "lights", "mesh", "material", "part"]).aovs
+            for name, scale in (("id", 1), ("lights", 1), ("mesh", 1), ("material", 1), ("part", 1), ("coverage", 65535)):
                 stored = np.asarray(Image.open(os.path.join(folder, f"x.{name}.png"))).astype(np.int64)
                 self.assertEqual(stored.tolist(), np.floor(planes[name] * float(scale) + 0.5).astype(np.int64).tolist(), name)
 
+
+    def test_parts_are_the_nodes_that_place_something(self):
+        # The second and the fourth node place two triangles each, side by side.
+        corners = np.array([[[x, 0, 0], [x + 1, 0, 0], [x, 1, 0]] for x in (0, 1)], np.float32)
+        data = base64.b64encode(corners.tobytes()).decode()
+        accessors = [{"bufferView": i, "componentType": 5126, "count": 3, "type": "VEC3",
+                      "min": corners[i].min(0).tolist(), "max": corners[i].max(0).tolist()} for i in (0, 1)]  # fmt: skip
+        file = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 3]}],
+                "nodes": [{"children": [1, 2]}, {"mesh": 0}, {}, {"mesh": 0, "translation": [0, 2, 0]}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": i}} for i in (0, 1)]}], "accessors": accessors,
+                "bufferViews": [{"buffer": 0, "byteOffset": 36 * i, "byteLength": 36} for i in (0, 1)],
+                "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64," + data}]}  # fmt: skip
+        scene = halflit.Scene.load(json.dumps(file).encode())
+        planes = scene.render(40, aovs=["id", "part"], view="front").aovs
+        found = {(int(i), int(p)) for i, p in zip(planes["id"].ravel(), planes["part"].ravel())}
+        self.assertEqual(found, {(0, 0), (1, 1), (2, 1), (3, 2), (4, 2)})
 
     def test_points_of_triangles_and_derived_planes(self):
         scene = halflit.Scene()

@@ -30,6 +30,7 @@ DERIVED = {
     "view_normal": "normal",  # in the camera's space: x to the right, y up, z towards the viewer
     "mesh": "id",  # index of the mesh plus 1
     "material": "id",  # index of the material plus 1; 0 for the default material too
+    "part": "id",  # number, from 1, of the file's node that places it, among those that place something; 0: none. Without a file, the id
 }
 
 #: Names of the planes: render(aovs=...).

@@ -44,10 +44,24 @@ class Target:
                     _c.call("ray_distances", ctypes.byref(camera._c), *size, ctypes.byref(region), plane.ctypes.data)
                 elif name == "view_normal":
                     _c.call("view_normals", ctypes.byref(camera._c), plane.ctypes.data, plane.size // 3)
+                elif name == "part":
+                    plane = part_numbers(scene)[plane]
                 else:
                     _c.call(f"scene_{name}_numbers", scene._handle, plane.ctypes.data, plane.size)
             found[name] = plane
         return found
+
+
+def part_numbers(scene) -> np.ndarray:
+    """The part of each instance, by its index plus 1."""
+    counts = scene.counts
+    numbers = np.arange(counts["instances"] + 1, dtype=np.uint32)
+    if counts["nodes"] > 0:
+        numbers[:] = 0
+        placing = [node["instances"] for node in scene.nodes if node["instances"]]
+        for number, instances in enumerate(placing, 1):
+            numbers[np.array(instances) + 1] = number
+    return numbers
 
 
 def region_of(size: tuple, options: dict, settings, target) -> tuple:
