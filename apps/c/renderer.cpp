@@ -1,5 +1,6 @@
 // Functions of halflit.h that draw.
 #include "apps/c/convert.hpp"
+#include "apps/c/interrupt.hpp"
 #include "apps/c/scene_access.hpp"
 #include "apps/c/versioned.hpp"
 
@@ -20,6 +21,7 @@ using namespace halflit::c;
 struct halflit_renderer {
     Renderer renderer;
     Execution execution;
+    bool stops_at_interrupt = false;
     std::vector<std::string> warnings;
     std::atomic<bool> busy{false};
 };
@@ -51,6 +53,12 @@ std::int32_t using_renderer(const char* function, halflit_renderer* renderer, st
     const std::int32_t code = guarded(function, pointers, body);
     renderer->busy = false;
     return code;
+}
+
+/// given: checked by execution(). Older programs have a shorter struct.
+bool stops_at_interrupt(const halflit_execution* given) {
+    return given != nullptr &&
+           read_struct(given, default_execution(), "halflit_execution").value_or(default_execution()).stop_at_interrupt != 0;
 }
 
 double ms_since(std::chrono::steady_clock::time_point start) {
@@ -122,6 +130,7 @@ int32_t halflit_renderer_create(const halflit_execution* given, halflit_renderer
         if (!how) return tl::unexpected<Error>(how.error());
         auto made = std::make_unique<halflit_renderer>();
         made->execution = std::move(*how);
+        made->stops_at_interrupt = stops_at_interrupt(given);
         *renderer = made.release();
         return {};
     });
@@ -132,6 +141,7 @@ int32_t halflit_renderer_set_execution(halflit_renderer* renderer, const halflit
         auto how = execution(given);
         if (!how) return tl::unexpected<Error>(how.error());
         renderer->execution = std::move(*how);
+        renderer->stops_at_interrupt = stops_at_interrupt(given);
         return {};
     });
 }
@@ -152,6 +162,7 @@ int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, c
                               const auto memory = target_struct(given_target);
                               if (!memory) return tl::unexpected<Error>(memory.error());
                               renderer->warnings.clear();
+                              const InterruptWatch watch(renderer->stops_at_interrupt);
                               auto report = draw(*renderer, *scene, lighting, scene->drawn(*from), *how, target(*memory));
                               if (!report) return tl::unexpected<Error>(report.error());
                               turn_planes_back(*memory, how->region, scene->up);
@@ -188,6 +199,7 @@ int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, 
                                   given->anisotropy,
                                   given->shadow_size};
         const bool is_known = known.probes > 0;
+        const InterruptWatch watch(renderer->stops_at_interrupt);
         const DrawingScene drawing(*scene);
         if (auto ok = scene->prepare(renderer->execution); !ok) return ok;
         std::optional<Lighting> moved;

@@ -16,9 +16,14 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
 
 namespace halflit::raster {
 namespace {
@@ -39,12 +44,51 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
     if (failure) std::rethrow_exception(failure);
 }
 
+/// Starts threads for each loop: about ten microseconds per loop more than oneTBB, which keeps its threads.
+void run_by_new_threads(int threads, int count, const std::function<void(int)>& task) {
+    std::atomic<int> next{0};
+    const auto work = [&] {
+        for (int i = next++; i < count; i = next++) task(i);
+    };
+    run_catching(
+        [&](const std::function<void(int)>& part) {
+            std::vector<std::jthread> others;
+            try {
+                for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(part, i);
+            } catch (const std::system_error&) {
+                // No further thread can be started: those that run, and this one, do all the work.
+            }
+            part(0);
+        },
+        [&](int) { work(); });
+}
+
+int hardware_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
+
 }  // namespace
 
 #ifdef HALFLIT_ONETBB
 
+namespace {
+
+/// True in a process that was forked from one in which oneTBB ran loops: its threads are not there, and its locks may be held for ever.
+bool is_forked() {
+#if defined(__unix__) || defined(__APPLE__)
+    static std::atomic<pid_t> process{0};
+    pid_t first = 0;
+    const pid_t own = getpid();
+    return !process.compare_exchange_strong(first, own) && first != own;
+#else
+    return false;
+#endif
+}
+
+}  // namespace
+
 struct Executor::Arena {
-    explicit Arena(int thread_count) : threads(thread_count), arena(thread_count) {
+    explicit Arena(int thread_count) : threads(thread_count) {
+        if (is_forked()) return;
+        arena.emplace(thread_count);
         take_first_memory();
         // oneTBB starts its threads with the first loop. An exception for one that does not start is harmless here, not inside a frame.
         run(thread_count, [](int) {});
@@ -76,12 +120,18 @@ struct Executor::Arena {
         if (count == wanted) proven = count;
         return count;
     }
-    static int all_threads() { return static_cast<int>(tbb::this_task_arena::max_concurrency()); }
+    static int all_threads() { return is_forked() ? hardware_threads() : static_cast<int>(tbb::this_task_arena::max_concurrency()); }
     /// oneTBB runs no more threads than this, and prints a warning when asked for more.
-    static int most_threads() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
-    void run(int count, const std::function<void(int)>& task) {
-        arena.execute([&] { tbb::parallel_for(0, count, task, tbb::simple_partitioner()); });
+    static int most_threads() {
+        if (is_forked()) return std::max(hardware_threads(), 1);
+        return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     }
+    void run(int count, const std::function<void(int)>& task) {
+        if (!arena) return run_by_new_threads(threads, count, task);
+        arena->execute([&] { tbb::parallel_for(0, count, task, tbb::simple_partitioner()); });
+    }
+    /// False for an arena of oneTBB in a process that was forked.
+    [[nodiscard]] bool is_usable() const { return !arena || !is_forked(); }
     /// oneTBB 2021 leaks about 7 kB with most arenas that end right after a loop, while its threads leave them. So arenas are kept for the
     /// next executor with as many threads. The list is never freed: at the end of the process oneTBB may be gone first.
     struct Idle {
@@ -93,7 +143,7 @@ struct Executor::Arena {
         return kept;
     }
     static Arena* take(int thread_count) {
-        {
+        if (!is_forked()) {
             Idle& kept = idle();
             const std::lock_guard lock(kept.mutex);
             const auto found = std::find_if(kept.list.begin(), kept.list.end(), [=](const auto& a) { return a->threads == thread_count; });
@@ -106,6 +156,10 @@ struct Executor::Arena {
         return std::make_unique<Arena>(thread_count).release();
     }
     static void give_back(std::unique_ptr<Arena> arena) {
+        if (is_forked()) {
+            if (!arena->is_usable()) (void)arena.release();  // its end would wait for threads that are not there
+            return;
+        }
         try {
             Idle& kept = idle();
             const std::lock_guard lock(kept.mutex);
@@ -114,34 +168,18 @@ struct Executor::Arena {
         }
     }
     int threads;
-    tbb::task_arena arena;
+    std::optional<tbb::task_arena> arena;  ///< none in a process that was forked
 };
 
 #else
 
-/// Starts threads for each loop: about ten microseconds per loop more than oneTBB, which keeps its threads.
 struct Executor::Arena {
     explicit Arena(int thread_count) : threads(thread_count) {}
     static int threads_that_start(int wanted) { return wanted; }  // each loop makes do with those that start
-    static int all_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
+    static int all_threads() { return hardware_threads(); }
     static int most_threads() { return std::numeric_limits<int>::max(); }
-    void run(int count, const std::function<void(int)>& task) {
-        std::atomic<int> next{0};
-        const auto work = [&] {
-            for (int i = next++; i < count; i = next++) task(i);
-        };
-        run_catching(
-            [&](const std::function<void(int)>& part) {
-                std::vector<std::jthread> others;
-                try {
-                    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(part, i);
-                } catch (const std::system_error&) {
-                    // No further thread can be started: those that run, and this one, do all the work.
-                }
-                part(0);
-            },
-            [&](int) { work(); });
-    }
+    void run(int count, const std::function<void(int)>& task) { run_by_new_threads(threads, count, task); }
+    [[nodiscard]] bool is_usable() const { return true; }
     static Arena* take(int thread_count) { return std::make_unique<Arena>(thread_count).release(); }
     static void give_back(std::unique_ptr<Arena>) {}
     int threads;
@@ -160,7 +198,7 @@ void Executor::configure(const Execution& execution) {
     if (hook_) return;
     const int wanted =
         std::min(execution.threads > 0 ? execution.threads : std::max(Arena::all_threads(), 1), std::max(Arena::most_threads(), 1));
-    if (arena_ && wanted == asked_) return;
+    if (arena_ && wanted == asked_ && arena_->is_usable()) return;
     asked_ = wanted;
     threads_ = 1 + Arena::threads_that_start(wanted - 1);
     arena_.reset();

@@ -148,6 +148,45 @@ class Callbacks(unittest.TestCase):
                     halflit.render("demo", (640, 360), samples=16, progress=lambda share: None)
             timer.join()
 
+    def test_ctrl_c_ends_a_frame_without_functions(self):
+        scene = halflit.Scene.demo()
+        expected = scene.render(64).pixel_hash
+        setup = scene.setup((1600, 900))
+        scene.render(setup=setup, samples=16, threads=1)
+        alone = time.perf_counter()
+        scene.render(setup=setup, samples=16, threads=1)
+        alone = time.perf_counter() - alone
+        sent, before = [], signal.getsignal(signal.SIGINT)
+
+        def interrupt():
+            sent.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        for share in (0.1, 0.5):
+            timer = threading.Timer(share * alone, interrupt)
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                while True:
+                    scene.render(setup=setup, samples=16, threads=1)
+            took = time.perf_counter() - sent[-1]
+            timer.join()
+            print(f"Ctrl-C took effect after {1000 * took:.1f} ms, a frame takes {1000 * alone:.0f} ms")
+            self.assertLess(took, 0.3 * alone)  # after the frame it would be half of it or more
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+        self.assertEqual(scene.render(64).pixel_hash, expected)
+
+    def test_a_handler_of_the_caller_does_not_stop_the_frame(self):
+        expected, called = heavy().pixel_hash, []
+        before = signal.signal(signal.SIGINT, lambda *_: called.append(1))
+        try:
+            timer = threading.Timer(0.05, lambda: os.kill(os.getpid(), signal.SIGINT))
+            timer.start()
+            self.assertEqual(heavy().pixel_hash, expected)
+            timer.join()
+            self.assertEqual(called, [1])
+        finally:
+            signal.signal(signal.SIGINT, before)
+
     def test_the_interpreter_ends_while_a_daemon_draws(self):
         # It ended the thread of a call in the midst of the library, which aborted.
         code = (

@@ -119,6 +119,15 @@ _loaded = None
 _loading = threading.Lock()
 
 
+def _after_fork() -> None:
+    global _loading
+    _loading = threading.Lock()  # another thread may have held it
+
+
+if hasattr(os, "register_at_fork"):  # not on Windows
+    os.register_at_fork(after_in_child=_after_fork)
+
+
 def library_path() -> str:
     """The file that HALFLIT_LIBRARY names, or else the package's own library, or else that of the system."""
     if os.environ.get("HALFLIT_LIBRARY"):

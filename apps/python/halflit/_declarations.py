@@ -85,7 +85,7 @@ STRUCTS = {
         size_t size; const char* isa; void* user; int32_t (*cancelled)(void* user); void (*on_tile)(void* user, int32_t x, int32_t
         y, int32_t width, int32_t height); void (*progress)(void* user, double share); void (*parallel_for)(void* user, int32_t
         count, void (*body)(void* task, int32_t i), void* task); int32_t threads; int32_t tile_size; double time_limit_s; size_t
-        memory_limit;
+        memory_limit; int32_t stop_at_interrupt; int32_t reserved;
 """,
     "halflit_target": """
         size_t size; int32_t width, height; int32_t format; int32_t region_alone; void* pixels; size_t row_bytes; float* depth;

@@ -6,6 +6,7 @@ import contextlib
 import os
 import signal
 import threading
+from _weakrefset import WeakSet  # weakref takes a tenth of halflit's own import
 from typing import Iterator
 
 from . import _c
@@ -20,14 +21,33 @@ class SceneLock:
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
+        self._lost = False
+        _LOCKS.add(self)
 
     def __enter__(self) -> None:
         if getattr(_CALLING, "lock", None) is self:
             raise UsageError("progress and cancelled cannot use the scene that is drawn")
+        if self._lost:
+            raise UsageError("another thread used this scene when the process was forked: make it anew in this process")
         self._lock.acquire()
 
     def __exit__(self, *_) -> None:
         self._lock.release()
+
+    def after_fork(self) -> None:
+        """In the child: the thread that used the scene is not there, and left it half changed."""
+        if self._lock.acquire(blocking=False):
+            self._lock.release()
+        else:
+            self._lock, self._lost = threading.RLock(), True
+
+
+_LOCKS: WeakSet = WeakSet()
+
+
+def _after_fork() -> None:
+    for lock in list(_LOCKS):
+        lock.after_fork()
 
 
 class _Calls:
@@ -65,7 +85,9 @@ class _Calls:
 
 _CALLS = _Calls()
 atexit.register(_CALLS.end)
-os.register_at_fork(after_in_child=_CALLS.begin)  # the frames of other threads are not there
+if hasattr(os, "register_at_fork"):  # not on Windows
+    os.register_at_fork(after_in_child=_CALLS.begin)  # the frames of other threads are not there
+    os.register_at_fork(after_in_child=_after_fork)
 
 
 class Execution:
@@ -78,7 +100,11 @@ class Execution:
         self.lock = lock
         self.struct = struct = _c.make("execution")
         self.raised: BaseException | None = None
-        self.key = tuple(options.get(name) for name in EXECUTION)
+        # With Python's own handler, Ctrl-C ends the frame: the handler runs as soon as the library returns.
+        in_main = threading.current_thread() is threading.main_thread()
+        self.interrupts = in_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        struct.stop_at_interrupt = self.interrupts
+        self.key = (self.interrupts, *(options.get(name) for name in EXECUTION))
         for name, member in (("threads", "threads"), ("tile_size", "tile_size"), ("time_limit", "time_limit_s"), ("memory_limit",) * 2):
             if options.get(name) is not None:
                 struct.put(member, options[name], name)
@@ -110,8 +136,7 @@ class Execution:
     @contextlib.contextmanager
     def _interrupts(self) -> Iterator[None]:
         """Ctrl-C ends the frame: an exception at the start of a callback would be lost in ctypes."""
-        in_main = threading.current_thread() is threading.main_thread()
-        if not (in_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
+        if not self.interrupts:
             yield
             return
 

@@ -1,0 +1,80 @@
+#include "apps/c/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <mutex>
+
+namespace halflit::c {
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // the signal's handler writes it
+
+std::mutex watching;  ///< guards the handlers
+int watches = 0;
+
+#if defined(__unix__) || defined(__APPLE__)
+
+struct sigaction handler_before;
+
+void note(int signal, siginfo_t* info, void* context) {
+    interrupted = true;
+    if ((handler_before.sa_flags & SA_SIGINFO) != 0)
+        handler_before.sa_sigaction(signal, info, context);
+    else if (handler_before.sa_handler != SIG_DFL && handler_before.sa_handler != SIG_IGN)
+        handler_before.sa_handler(signal);
+}
+
+void begin() {
+    // Keeps the mask and the flags of the handler before, so that interrupted system calls end as the process expects.
+    if (sigaction(SIGINT, nullptr, &handler_before) != 0) return;
+    struct sigaction ours = handler_before;
+    ours.sa_sigaction = note;
+    ours.sa_flags = (handler_before.sa_flags | SA_SIGINFO) & ~static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &ours, nullptr);
+}
+
+void end() {
+    // A handler that was set meanwhile stays.
+    struct sigaction now {};
+    if (sigaction(SIGINT, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == note)
+        sigaction(SIGINT, &handler_before, nullptr);
+}
+
+#else
+
+void (*handler_before)(int) = SIG_DFL;
+
+void note(int signal) {
+    std::signal(SIGINT, note);  // some systems reset it
+    interrupted = true;
+    if (handler_before != SIG_DFL && handler_before != SIG_IGN && handler_before != SIG_ERR) handler_before(signal);
+}
+
+void begin() { handler_before = std::signal(SIGINT, note); }
+
+void end() {
+    if (handler_before != SIG_ERR) std::signal(SIGINT, handler_before);
+}
+
+#endif
+
+}  // namespace
+
+InterruptWatch::InterruptWatch(bool is_wanted) : is_wanted_(is_wanted) {
+    if (!is_wanted) return;
+    const std::lock_guard lock(watching);
+    if (watches++ > 0) return;
+    interrupted = false;
+    begin();
+}
+
+InterruptWatch::~InterruptWatch() {
+    if (!is_wanted_) return;
+    const std::lock_guard lock(watching);
+    if (--watches == 0) end();
+}
+
+bool InterruptWatch::raised() noexcept { return interrupted; }
+
+}  // namespace halflit::c
