@@ -120,9 +120,9 @@ def checked_matrices(array: np.ndarray, name: str) -> np.ndarray:
     if not np.isfinite(array).all():
         raise UsageError(f"{name}: a number is not finite")
     last = (0, 0, 0, 1)
-    wrong = np.flatnonzero(~np.isclose(array[:, 3], last, rtol=0, atol=1e-6).all(axis=1))
-    if len(wrong):
-        found = array[wrong[0]]
+    is_wrong = np.abs(array[:, 3] - last).max(axis=1, initial=0) > 1e-6
+    if is_wrong.any():
+        found = array[is_wrong.argmax()]
         hint = ": is it transposed?" if np.allclose(found[:, 3], last, rtol=0, atol=1e-6) else ""
         raise UsageError(f"{name}: expected 0 0 0 1 as the last row, and the translation in the last column, found {found[3]}{hint}")
     array[:, 3] = last

@@ -6,6 +6,7 @@ side by side.
 from __future__ import annotations
 
 import ctypes
+import functools
 import os
 import re
 import threading
@@ -97,8 +98,9 @@ for _name, _text in STRUCTS.items():
     STRUCT[_name]._kinds = dict(STRUCT[_name]._fields_)
 
 
+@functools.lru_cache(None)
 def choices(prefix: str) -> dict:
-    """Names of an enumeration, such as {"opaque": 0, "mask": 1}, for HALFLIT_<prefix>_OPAQUE and so on."""
+    """Names of an enumeration, such as {"opaque": 0, "mask": 1}, for HALFLIT_<prefix>_OPAQUE and so on. Not to be changed."""
     start = f"HALFLIT_{prefix}_"
     return {name[len(start) :].lower(): value for name, value in CONSTANTS.items() if name.startswith(start)}
 

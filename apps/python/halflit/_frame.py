@@ -9,7 +9,7 @@ import numpy as np
 from . import _c
 from ._errors import UsageError, warn
 from ._execution import Execution
-from ._options import KNOWN, VIEW, apply_settings, check_names, settings_dict
+from ._options import KNOWN, VIEW, apply_settings, check_names
 from ._picture import Picture
 from ._setup import Setup, checked_size, choose, drawn_camera, exposure_of, given_camera, kept
 from ._target import Target
@@ -83,8 +83,7 @@ def draw_setup(scene, setup: Setup, options: dict) -> Picture:
     picture = target.picture
     picture.camera, picture.report = setup.camera, report
     picture.aovs = target.derive(scene, picture.camera, settings.region)
-    picture.settings = settings_dict(settings)
-    picture.settings["shadow_fade"] /= scene._world.scale
+    picture._settings = settings, scene._world.scale
     for line in report["warnings"]:
         if line not in scene._told:  # each once
             scene._told.add(line)

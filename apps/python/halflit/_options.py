@@ -111,8 +111,8 @@ def set_background(settings, value) -> None:
     settings.background = (ctypes.c_float * 4)(*color(value, "background", 4, BRIGHTEST))
 
 
-def settings_dict(settings) -> Dict[str, Any]:
-    """All settings by the names of halflit_settings."""
+def settings_dict(settings, scale: float = 1.0) -> Dict[str, Any]:
+    """All settings by the names of halflit_settings. scale: of lengths in the world that is drawn."""
     values: Dict[str, Any] = {}
     kinds = dict(SETTINGS.values())
     for name, _ in settings._fields_:
@@ -126,4 +126,5 @@ def settings_dict(settings) -> Dict[str, Any]:
         elif isinstance(value, ctypes.Structure):
             value = tuple(getattr(value, member) for member, _ in value._fields_)
         values[name] = tuple(value) if isinstance(value, ctypes.Array) else value
+    values["shadow_fade"] /= scale
     return values

@@ -11,6 +11,7 @@ from . import _c
 from ._camera import Camera
 from ._color import srgb_from_linear
 from ._errors import UsageError
+from ._options import settings_dict
 
 #: Kinds of files whose pixels are floats; all others have 8-bit codes.
 _LINEAR = (".exr", ".hdr", ".pfm")
@@ -20,18 +21,60 @@ class Picture(np.ndarray):
     """The pixels of a frame, shape (height, width, 4), row 0 on top.
 
     uint8: red, green and blue in sRGB codes, linear alpha. float32: linear light after exposure, without a tone curve.
-    A part of a picture, or what is computed from one, is a Picture without report and planes.
+    Copies and pickles keep report, planes, camera and settings. A part of a picture, or an array that is computed from one, is a Picture
+    without them. What is computed as one number, as by picture.mean(), is a number of numpy.
     """
 
     report: Dict[str, Any]  #: times, counts, the bound on the error, warnings: see halflit_report in halflit.h
     aovs: Dict[str, np.ndarray]  #: the planes that render(aovs=...) asked for, by name
     camera: Optional[Camera]  #: the camera that drew it
-    settings: Dict[str, Any]  #: all settings that decided its pixels
     premultiplied: bool  #: colours are multiplied by alpha; files and notebooks get them divided again
 
     def __array_finalize__(self, source) -> None:
-        self.report, self.aovs, self.camera, self.settings = {}, {}, None, {}
+        self.report, self.aovs, self.camera, self._settings = {}, {}, None, {}
         self.premultiplied = getattr(source, "premultiplied", False)
+
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        if array.ndim == 0:  # of a reduction
+            return array[()]
+        return array.view(type(self)) if array is not self else array
+
+    @property
+    def settings(self) -> Dict[str, Any]:
+        """All settings that decided its pixels, by the names of halflit_settings in halflit.h."""
+        if not isinstance(self._settings, dict):
+            self._settings = settings_dict(*self._settings)
+        return self._settings
+
+    def _told(self) -> tuple:
+        """What it has beside the pixels."""
+        return self.report, self.aovs, self.camera, self.settings, self.premultiplied
+
+    def _tell(self, told: tuple):
+        self.report, self.aovs, self.camera, self._settings, self.premultiplied = told
+        return self
+
+    def copy(self, order: Any = "C") -> Picture:
+        """Another picture that is equal; its planes are copies too."""
+        report, aovs, camera, settings, premultiplied = self._told()
+        planes = {name: plane.copy() for name, plane in aovs.items()}
+        told = dict(report), planes, None if camera is None else camera.copy(), dict(settings), premultiplied
+        return super().copy(order)._tell(told)
+
+    def __copy__(self) -> Picture:
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> Picture:
+        return self.copy()
+
+    def __reduce__(self):
+        remake, arguments, state = super().__reduce__()[:3]
+        return remake, arguments, (state, self._told())
+
+    def __setstate__(self, state) -> None:
+        pixels, told = state
+        super().__setstate__(pixels)
+        self._tell(told)
 
     @property
     def pixel_hash(self) -> str:

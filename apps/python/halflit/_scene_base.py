@@ -25,6 +25,7 @@ class SceneBase:
         self._chosen: Any = None  # what was chosen for the last frame, and the key of what it was chosen for
         self._own_lights = False  # add_light() was called
         self._told: set = set()  # warnings that were shown
+        self._warnings: Optional[List[str]] = None  # of loading
         self._plain: Optional[int] = None  # material of meshes that are given none
         self._materials: Dict[int, int] = {}  # mesh that was added -> its material
         self._smooth: set = set()  # meshes with normals="smooth"
@@ -40,12 +41,14 @@ class SceneBase:
     @property
     def warnings(self) -> List[str]:
         """What the loader could not draw, one line each."""
-        text, lines = ctypes.c_char_p(), []
-        with self._lock:  # the texts are the scene's
-            for i in range(self.counts["warnings"]):
-                self._call("scene_get_warning", i, ctypes.byref(text))
-                lines.append(_c.text_of(text.value))
-        return lines
+        if self._warnings is None:
+            text, lines = ctypes.c_char_p(), []
+            with self._lock:  # the texts are the scene's
+                for i in range(self.counts["warnings"]):
+                    self._call("scene_get_warning", i, ctypes.byref(text))
+                    lines.append(_c.text_of(text.value))
+            self._warnings = lines
+        return list(self._warnings)
 
     def _call(self, name: str, *arguments) -> None:
         with self._lock:

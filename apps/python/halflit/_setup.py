@@ -35,6 +35,9 @@ class Setup:
         """Factor on all light."""
         return self._settings.exposure
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a halflit.Setup cannot be copied or pickled: it belongs to its scene")
+
     def _seen_by(self, camera: Camera) -> Setup:
         """The same light and size with another camera."""
         return Setup(camera, self._settings, self._lighting, self.size)
