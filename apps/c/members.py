@@ -15,6 +15,7 @@ TABLE = "shading/material_properties.def"
 SOURCE = "shading/include/halflit/material.hpp"
 HEADER = "apps/c/include/halflit/halflit.h"
 PYTHON = "apps/python/halflit/_material.py"
+PYTHON_MEMBERS = "apps/python/halflit/_members.py"
 SETTINGS_TABLE = "raster/settings_table.def"
 SETTINGS_SOURCES = ("raster/include/halflit/settings.hpp", "shading/include/halflit/shading.hpp")
 USUAL_SETTINGS = "raster/auto_setup.cpp"
@@ -193,7 +194,9 @@ def made():
     options = between(text_of(PYTHON_SETTINGS), "    Settings:", "\n    How it is computed", docs)
     options = between(options, "    # Settings: written by apps/c/members.py.", "    # How it is computed.", annotations)
     keywords = between(text_of(PYTHON_TABLE), "SETTINGS: Dict[str, Tuple[str, str]] = {", "}", table)
-    return {HEADER: header, PYTHON: python, PYTHON_SETTINGS: options, PYTHON_TABLE: keywords}
+    uses = python_annotations().replace("Union[TextureUse, int]", "TextureOf")
+    members = between(text_of(PYTHON_MEMBERS), "    # Written by apps/c/members.py.", "    # Other members.", uses)
+    return {HEADER: header, PYTHON: python, PYTHON_MEMBERS: members, PYTHON_SETTINGS: options, PYTHON_TABLE: keywords}
 
 
 def main():

@@ -1,4 +1,5 @@
 """The package as a whole: it agrees with halflit.h, imports quickly, and says what each part is."""
+import ast
 import ctypes
 import importlib.util
 import inspect
@@ -15,7 +16,7 @@ import unittest.mock
 import numpy as np
 
 import halflit
-from halflit import _c, _declarations, _options
+from halflit import _c, _declarations, _members, _options
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -25,6 +26,30 @@ APPS = os.path.join(ROOT, "apps")
 def text_of(*path):
     with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
         return file.read()
+
+
+#: A program of a user; a comment has the name that type checkers refuse in its line.
+TYPED = """\
+import io
+import numpy as np
+import halflit
+picture: halflit.Picture = halflit.render("demo", (8, 8), samples=8)
+scene = halflit.Scene.load(io.BytesIO(b""), up="z")
+mesh = scene.add_mesh(np.zeros((3, 3)), material={"base_color": (1, 0, 0), "lobe": ("sloan", 0.6), "normal_texture": 3})
+scene.add_light({"type": "point", "position": (0, 2, 0)})
+scene.add_light("spot", outer_cone_rad=0.4)
+setup = scene.setup(8, azimuth=30, view="iso")
+camera = halflit.Camera(np.eye(4), fov_y_rad=0.8)
+for other in scene.render_batch([camera, (30, 20)], 8, aovs=["depth"], dtype=np.float32):
+    other.save(io.BytesIO(), format="png")
+    print(other.aovs["depth"].max(), other.report["total_ms"], other.mean(), other.settings, other.copy().camera)
+halflit.render("x", sampels=3)  # sampels
+scene.setup(8, samples=3)  # samples
+scene.add_mesh(np.zeros((3, 3)), material={"base_colour": (1, 0, 0)})  # MaterialMembers
+scene.add_light("spot", colour=(1, 1, 1))  # colour
+halflit.Material(rougness=0.3)  # rougness
+print(scene.material(0).metalic)  # metalic
+"""
 
 
 class Header(unittest.TestCase):
@@ -59,8 +84,22 @@ class Header(unittest.TestCase):
         members = {member for member, _ in _options.SETTINGS.values()} | {"background", "edge_color", "lobe"}
         chosen = {"size", "reserved", "region", "exposure", "override_lobe", "background_environment"}
         self.assertEqual(members, {name for name, _ in _c.STRUCT["halflit_settings"]._fields_} - chosen)
+        for kind, keywords in (
+            (halflit.Material, _members.MaterialMembers),
+            (halflit.Light, _members.LightMembers),
+            (halflit.Camera, _members.CameraMembers),
+            (halflit.Lobe, _members.LobeMembers),
+            (halflit.TextureUse, _members.TextureUseMembers),
+        ):
+            self.assertEqual(set(kind._members()) - {"matrix", "world_from_camera"}, set(keywords.__annotations__), kind)
         for kind in (halflit.Material, halflit.Light, halflit.Camera, halflit.Lobe, halflit.TextureUse):
             self.assertEqual(set(kind._members()) - {"matrix", "sides", "world_from_camera"}, set(kind.__annotations__), kind)
+
+    def test_public_names_are_a_literal_list(self):
+        # Type checkers read the file without running it.
+        (names,) = re.findall(r"^__all__ = (\[.*?\])$", text_of("apps", "python", "halflit", "__init__.py"), re.M | re.S)
+        self.assertEqual(ast.literal_eval(names), halflit.__all__)
+        self.assertEqual(halflit.__all__, sorted(halflit.__all__, key=lambda name: (name[0].islower(), name)))
 
     def test_version(self):
         self.assertEqual(halflit.version(), halflit.__version__)
@@ -132,20 +171,20 @@ class Documentation(unittest.TestCase):
         self.assertIs(hints["return"], halflit.Picture)
 
     @unittest.skipUnless(shutil.which("mypy"), "no mypy")
-    def test_types_hold_and_catch_a_misspelled_keyword(self):
+    def test_types_hold_and_catch_misspelled_names(self):
         with tempfile.TemporaryDirectory() as folder:
             user = os.path.join(folder, "user.py")
             with open(user, "w", encoding="utf-8") as file:
-                file.write('import halflit\npicture: halflit.Picture = halflit.render("demo", (8, 8), samples=8)\n')
-                file.write('halflit.render("x", sampels=3)\n')
-                file.write('halflit.Scene.demo().setup(8, samples=3)\n')
-            command = ["mypy", "--enable-incomplete-feature=Unpack", "--python-executable", sys.executable, "--cache-dir", folder, user]
+                file.write(TYPED)
+            command = ["mypy", "--strict", "--enable-incomplete-feature=Unpack", "--python-executable", sys.executable, "--cache-dir", folder]
+            command.append(user)
             environment = {**os.environ, "MYPYPATH": os.path.join(APPS, "python")}
             said = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False).stdout.decode()
-        errors = [line for line in said.splitlines() if ": error:" in line]
-        self.assertEqual(len(errors), 2, said)
-        self.assertIn('"sampels"', errors[0])
-        self.assertIn('"samples"', errors[1])
+        errors = [line for line in said.splitlines() if ": error:" in line]  # of the package's own files too
+        expected = [line.split("# ")[1] for line in TYPED.splitlines() if "# " in line]
+        self.assertEqual(len(errors), len(expected), said)
+        for error, name in zip(errors, expected):
+            self.assertIn(name, error)
 
     def test_the_readmes_program_draws(self):
         for path in (("README.md",), ("apps", "python", "README.md")):

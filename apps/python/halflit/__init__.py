@@ -26,20 +26,38 @@ if TYPE_CHECKING:
     from ._picture import Picture as Picture
 
 __version__ = _c.VERSION
-__all__ = (
-    "AOVS BadInputError Camera CancelledError Error FileError Light LimitError Lobe Material Picture"
-    " PictureOptions Scene Setup TextureUse UsageError pixel_epoch render version"
-).split()
+__all__ = [
+    "AOVS",
+    "BadInputError",
+    "Camera",
+    "CancelledError",
+    "Error",
+    "FileError",
+    "Light",
+    "LimitError",
+    "Lobe",
+    "Material",
+    "Picture",
+    "PictureOptions",
+    "Scene",
+    "Setup",
+    "TextureUse",
+    "UsageError",
+    "pixel_epoch",
+    "render",
+    "version",
+]
 
 
 def version() -> str:
     """Version of the library, as "0.1.0"."""
-    return _c.function("version")().decode()
+    text: bytes = _c.function("version")()
+    return text.decode()
 
 
 def pixel_epoch() -> int:
     """Libraries of equal pixel epoch give equal pixels."""
-    return _c.function("pixel_epoch")()
+    return int(_c.function("pixel_epoch")())
 
 
 def __getattr__(name: str) -> Any:

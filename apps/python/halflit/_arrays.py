@@ -1,16 +1,17 @@
 """Arrays of a caller as the library reads them. An array that has the right type and order is handed over without a copy."""
 from __future__ import annotations
 
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
 
 from ._color import BRIGHTEST, linear_from_codes
 from ._errors import UsageError, warn
+from ._types import Array
 from ._values import shown
 
 
-def array_of(value, name: str) -> np.ndarray:
+def array_of(value: Any, name: str) -> Array:
     """An array of numbers."""
     try:
         array = np.asarray(value)
@@ -21,13 +22,13 @@ def array_of(value, name: str) -> np.ndarray:
     return array
 
 
-def numbers(value, kind, name: str) -> np.ndarray:
+def numbers(value: Any, kind: Any, name: str) -> Array:
     """An array of numbers of this kind, without gaps."""
     with np.errstate(over="ignore"):  # infinite numbers are told of where they matter
         return np.ascontiguousarray(array_of(value, name), dtype=kind)
 
 
-def floats(value, columns: int, name: str, count: Optional[int] = None) -> np.ndarray:
+def floats(value: Any, columns: int, name: str, count: Optional[int] = None) -> Array:
     """float32 of shape (n, columns), rows without gaps. count: the n that is expected."""
     array = numbers(value, np.float32, name)
     if array.ndim != 2 or array.shape[1] != columns:
@@ -37,7 +38,7 @@ def floats(value, columns: int, name: str, count: Optional[int] = None) -> np.nd
     return array
 
 
-def finite(value, columns: int, name: str, count: int) -> np.ndarray:
+def finite(value: Any, columns: int, name: str, count: int) -> Array:
     """The same without infinite numbers and NaN."""
     array = floats(value, columns, name, count)
     wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
@@ -46,7 +47,7 @@ def finite(value, columns: int, name: str, count: int) -> np.ndarray:
     return array
 
 
-def positions(value, count: Optional[int] = None) -> np.ndarray:
+def positions(value: Any, count: Optional[int] = None) -> Array:
     """Vertices as floats(). Warns where rounding to float32 changes a shape that is far from the origin."""
     array = floats(value, 3, "vertices", count)
     if getattr(value, "dtype", np.float64) != np.float32 and len(array) and np.isfinite(array).all():
@@ -60,7 +61,7 @@ def positions(value, count: Optional[int] = None) -> np.ndarray:
     return array
 
 
-def colors(value, count: int) -> np.ndarray:
+def colors(value: Any, count: int) -> Array:
     """Vertex colours: float32 of shape (n, 4), linear. Bytes are sRGB codes; alpha may be left out. Codes of another type are refused."""
     array = array_of(value, "colors")
     if array.ndim != 2 or array.shape[1] not in (3, 4):
@@ -80,7 +81,7 @@ def colors(value, count: int) -> np.ndarray:
     return floats(array, 4, "colors", count)
 
 
-def indices(value, columns: int, count: int) -> np.ndarray:
+def indices(value: Any, columns: int, count: int) -> Array:
     """uint32, `columns` vertex numbers for each primitive, all below count. int32 without negative numbers has the same bytes."""
     array = array_of(value, "faces")
     if not array.size:
@@ -99,15 +100,16 @@ def indices(value, columns: int, count: int) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
-def matrix(value, name: str = "matrix") -> np.ndarray:
+def matrix(value: Any, name: str = "matrix") -> Array:
     """float64 (4, 4) whose rows are rows: the translation is value[:3, 3]."""
     array = numbers(value, np.float64, name).copy()
     if array.shape != (4, 4):
         raise UsageError(f"{name}: expected an array of shape (4, 4), found {array.shape}")
-    return checked_matrices(array[None], name)[0]
+    checked: Array = checked_matrices(array[None], name)[0]
+    return checked
 
 
-def matrices(value, name: str = "matrices") -> np.ndarray:
+def matrices(value: Any, name: str = "matrices") -> Array:
     """float64 (n, 4, 4), likewise."""
     array = numbers(value, np.float64, name).copy()
     if array.ndim != 3 or array.shape[1:] != (4, 4):
@@ -115,7 +117,7 @@ def matrices(value, name: str = "matrices") -> np.ndarray:
     return checked_matrices(array, name)
 
 
-def checked_matrices(array: np.ndarray, name: str) -> np.ndarray:
+def checked_matrices(array: Array, name: str) -> Array:
     """Finite ones whose last row is 0 0 0 1, exactly then."""
     if not np.isfinite(array).all():
         raise UsageError(f"{name}: a number is not finite")
@@ -129,12 +131,12 @@ def checked_matrices(array: np.ndarray, name: str) -> np.ndarray:
     return array
 
 
-def columns_of(array: np.ndarray) -> np.ndarray:
+def columns_of(array: Array) -> Array:
     """16 float32, column after column, of a 4 x 4 array."""
     return np.ascontiguousarray(array.T, dtype=np.float32)
 
 
-def rgba8(value) -> np.ndarray:
+def rgba8(value: Any) -> Array:
     """A texture's pixels: uint8 (height, width, 4), whose pixels have no gaps; rows may have. Grey and RGB are filled up."""
     if hasattr(value, "convert") and hasattr(value, "getbands"):  # a picture of PIL
         value = value.convert("RGBA")

@@ -10,9 +10,10 @@ import functools
 import os
 import re
 import threading
-from typing import Any
+from typing import Any, Dict, List
 
-from ._declarations import CONSTANTS, FUNCTIONS, STRUCTS
+from ._declarations import CONSTANTS as CONSTANTS
+from ._declarations import FUNCTIONS, STRUCTS
 from ._errors import UsageError, made
 from ._values import real, shown, whole
 
@@ -43,7 +44,7 @@ _RANGES = {
 }
 
 
-def converted(kind, value, name: str):
+def converted(kind: Any, value: Any, name: str) -> Any:
     """The number for a C type, to which ctypes would cut it down in silence. Other types are left to ctypes."""
     if kind in _RANGES:
         return whole(value, name, *_RANGES[kind])
@@ -53,12 +54,12 @@ def converted(kind, value, name: str):
 class Struct(ctypes.Structure):
     """A struct of halflit.h."""
 
-    _kinds: dict = {}  # member -> ctypes type
+    _kinds: Dict[Any, Any] = {}  # member -> ctypes type
 
-    def __setattr__(self, name: str, value) -> None:
+    def __setattr__(self, name: str, value: Any) -> None:
         self.put(name, value, name)
 
-    def put(self, member: str, value, name: str) -> None:
+    def put(self, member: str, value: Any, name: str) -> None:
         """Sets a member for which the caller has another name."""
         super().__setattr__(member, converted(self._kinds.get(member), value, name))
 
@@ -70,9 +71,9 @@ def _groups(pattern: str, text: str) -> Any:
     return found.groups()
 
 
-def _members(text: str, structs: dict) -> list:
+def _members(text: str, structs: Dict[Any, Any]) -> List[Any]:
     """The ctypes fields for a struct's members, written in C."""
-    fields: list = []
+    fields: List[Any] = []
     for declaration in " ".join(text.split()).strip("; ").split("; "):
         callback = re.match(r"\w+ \(\*(\w+)\)", declaration)
         if callback:
@@ -92,20 +93,20 @@ def _members(text: str, structs: dict) -> list:
     return fields
 
 
-STRUCT: dict = {}
+STRUCT: Dict[Any, Any] = {}
 for _name, _text in STRUCTS.items():
     STRUCT[_name] = type(_name, (Struct,), {"_fields_": _members(_text, STRUCT)})
     STRUCT[_name]._kinds = dict(STRUCT[_name]._fields_)
 
 
 @functools.lru_cache(None)
-def choices(prefix: str) -> dict:
+def choices(prefix: str) -> Dict[Any, Any]:
     """Names of an enumeration, such as {"opaque": 0, "mask": 1}, for HALFLIT_<prefix>_OPAQUE and so on. Not to be changed."""
     start = f"HALFLIT_{prefix}_"
     return {name[len(start) :].lower(): value for name, value in CONSTANTS.items() if name.startswith(start)}
 
 
-def make(name: str, initialised: bool = True):
+def make(name: str, initialised: bool = True) -> Any:
     """A struct of halflit.h by its name without halflit_: its size is set, and its defaults if it has an init function."""
     struct = STRUCT["halflit_" + name]()
     if initialised:
@@ -138,7 +139,7 @@ def library_path() -> str:
     return own if os.path.exists(own) else "libhalflit_c.so." + VERSION.rpartition(".")[0]
 
 
-def _load():
+def _load() -> Any:
     global _loaded
     with _loading:
         if _loaded is not None:
@@ -166,7 +167,7 @@ def _load():
         return library
 
 
-def _argument(text: str):
+def _argument(text: str) -> Any:
     if text.startswith("const char* "):
         return ctypes.c_char_p
     if "*" in text or "[" in text:
@@ -174,7 +175,7 @@ def _argument(text: str):
     return Write if text.startswith("halflit_write ") else _NUMBERS[text.split()[0]]
 
 
-def function(name: str):
+def function(name: str) -> Any:
     """A function of halflit.h by its name without halflit_."""
     return getattr(_loaded or _load(), "halflit_" + name)
 
@@ -183,7 +184,7 @@ def function(name: str):
 _PATHS = {"scene_load": 0, "scene_load_environment": 1, "write_image": 0}
 
 
-def call(name: str, *arguments) -> None:
+def call(name: str, *arguments: Any) -> None:
     """Calls a function that returns a code, and raises what it tells."""
     called = function(name)
     code = called(*map(converted, called.argtypes, arguments, called.names))
@@ -197,22 +198,22 @@ class Handle:
 
     _destroy = None
 
-    def __init__(self, create: str, destroy: str, *arguments):
+    def __init__(self, create: str, destroy: str, *arguments: Any) -> None:
         pointer = ctypes.c_void_p()
         call(create, *arguments, ctypes.byref(pointer))
         self._as_parameter_ = pointer
         self._destroy = function(destroy)
 
-    def __del__(self):
+    def __del__(self) -> None:
         if self._destroy is not None:
             self._destroy(self._as_parameter_)
 
 
-def text_of(value) -> str:
+def text_of(value: Any) -> str:
     return (value or b"").decode("utf-8", "replace")
 
 
-def bytes_of(value, name: str) -> bytes | None:
+def bytes_of(value: Any, name: str) -> bytes | None:
     """A text, or a path, as the library takes it."""
     if value is None:
         return None

@@ -3,13 +3,14 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 from . import _c
 from ._errors import UsageError
 from ._lazy import np
+from ._members import CameraMembers
 from ._record import Record
-from ._types import Point
+from ._types import Array, Point, Unpack
 from ._values import real, reals, shown, up_axis
 
 
@@ -49,23 +50,23 @@ class Camera(Record):
     near_z: float
     far_z: float
 
-    def __init__(self, matrix=None, **members: Any):
+    def __init__(self, matrix: Any = None, **members: Unpack[CameraMembers]) -> None:
         super().__init__(**members)
         if matrix is not None:
             self.matrix = matrix
 
     @classmethod
-    def _members(cls) -> list:
+    def _members(cls) -> List[Any]:
         return [name for name in super()._members() if name != "world_from_camera"] + ["matrix"]
 
     @property
     def sides(self) -> Optional[Tuple[float, float, float, float]]:
         """left, right, bottom, top of the picture in place of the angles and sizes above, or None."""
         sides = tuple(self._c.sides)
-        return sides if any(sides) else None
+        return (sides[0], sides[1], sides[2], sides[3]) if any(sides) else None
 
     @sides.setter
-    def sides(self, value) -> None:
+    def sides(self, value: Any) -> None:
         sides = (0.0, 0.0, 0.0, 0.0) if value is None else tuple(reals(value, 4, "sides"))
         if value is not None and not (sides[0] < sides[1] and sides[2] < sides[3]):
             raise UsageError(f"sides: expected left below right and bottom below top, found {shown(value)}")
@@ -73,14 +74,14 @@ class Camera(Record):
         object.__setattr__(self, "_drawn", None)
 
     @property
-    def matrix(self) -> np.ndarray:
+    def matrix(self) -> Array:
         """world_from_camera, float64 (4, 4): the translation is matrix[:3, 3]."""
         if "matrix" in self._exact:
             return np.array(self._exact["matrix"])
         return np.array(self._c.world_from_camera, dtype=np.float64).reshape(4, 4).T.copy()
 
     @matrix.setter
-    def matrix(self, value) -> None:
+    def matrix(self, value: Any) -> None:
         from ._arrays import matrix
 
         array = matrix(value)
@@ -94,23 +95,23 @@ class Camera(Record):
             )
         self._place(array)
 
-    def _place(self, matrix: np.ndarray) -> None:
+    def _place(self, matrix: Array) -> None:
         self._c.world_from_camera[:] = matrix.T.ravel().tolist()
         self._exact["matrix"] = matrix.tolist()
         object.__setattr__(self, "_drawn", None)
 
-    def __setattr__(self, name: str, value) -> None:
+    def __setattr__(self, name: str, value: Any) -> None:
         if name in ("matrix", "sides"):
             object.__setattr__(self, name, value)
         else:
             super().__setattr__(name, value)
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> Dict[Any, Any]:
         """All members by their names, and the matrix."""
         return {**super().to_dict(), "matrix": self.matrix.tolist()}
 
     @classmethod
-    def look_at(cls, eye: Point, target: Point, up: Point = (0, 1, 0), **members: Any) -> Camera:
+    def look_at(cls, eye: Point, target: Point, up: Point = (0, 1, 0), **members: Unpack[CameraMembers]) -> Camera:
         """A camera at `eye` that looks at `target`, with `up` upwards in the picture; points in world units."""
         camera = cls(**members)
         points = [np.array(reals(value, 3, name)) for value, name in ((eye, "eye"), (target, "target"), (up, "up"))]
@@ -127,7 +128,9 @@ class Camera(Record):
         return camera
 
     @classmethod
-    def orbit(cls, theta: float, phi: float, radius: float, target: Point = (0, 0, 0), up: str = "y", **members: Any) -> Camera:
+    def orbit(
+        cls, theta: float, phi: float, radius: float, target: Point = (0, 0, 0), up: str = "y", **members: Unpack[CameraMembers]
+    ) -> Camera:
         """A camera that looks at `target` from a distance, by the angles of <model-viewer>'s camera-orbit.
 
         theta: degrees about the vertical axis, from +z towards +x. phi: degrees from straight above. radius: world units. up: the world's
@@ -144,7 +147,7 @@ class Camera(Record):
         return camera
 
     @classmethod
-    def view(cls, scene, view="iso", size=(1280, 720), **options: Any) -> Camera:
+    def view(cls, scene: Any, view: Any = "iso", size: Any = (1280, 720), **options: Any) -> Camera:
         """The camera of scene.render(size, view=view): of the whole scene from a side, at the distance and scale that shows all sides.
 
         view: "front", "back", "left", "right", "top", "bottom", "iso", or (azimuth, elevation) in degrees. size: (width, height) of the
@@ -155,10 +158,11 @@ class Camera(Record):
         from ._views import drawn_views
 
         check_names(options, ("zoom", "fov", "orthographic", "fit"), "Camera.view")
-        return scene._world.out(drawn_views(scene, [view], checked_size(size), options)[0])
+        camera: Camera = scene._world.out(drawn_views(scene, [view], checked_size(size), options)[0])
+        return camera
 
     @classmethod
-    def from_intrinsics(cls, K, size, R, t, first_pixel: float = 0, **members: Any) -> Camera:
+    def from_intrinsics(cls, K: Any, size: Any, R: Any, t: Any, first_pixel: float = 0, **members: Unpack[CameraMembers]) -> Camera:
         """A camera of computer vision, which looks along +z with y down.
 
         K: fx, 0, cx; 0, fy, cy; 0, 0, 1 in pixels of a picture of size (width, height). A point X of the world is at R X + t in the
@@ -184,7 +188,7 @@ class Camera(Record):
         return camera
 
     @classmethod
-    def from_matrices(cls, view, projection) -> Camera:
+    def from_matrices(cls, view: Any, projection: Any) -> Camera:
         """A camera by the two matrices of OpenGL: view is camera_from_world and rigid, projection is clip_from_camera, both 4 x 4.
 
         The projection may be perspective, with or without a far plane, or orthographic; its axis may be anywhere in the picture.
@@ -221,7 +225,7 @@ class Camera(Record):
         """Another camera that is equal."""
         return self._copied()
 
-    def _moved(self, move: Callable, scale: float) -> Camera:
+    def _moved(self, move: Callable[..., Any], scale: float) -> Camera:
         """The camera in a world whose points are moved and whose lengths are multiplied so."""
         made, matrix = self._copied(), self.matrix
         matrix[:3, 3] = move(matrix[:3, 3])
@@ -229,7 +233,8 @@ class Camera(Record):
         for name in ("half_height", "half_width", "near_z", "far_z"):
             setattr(made._c, name, getattr(made._c, name) * scale)
         if self.orthographic and self.sides:
-            made.sides = [side * scale for side in self.sides]
+            left, right, bottom, top = self.sides
+            made.sides = left * scale, right * scale, bottom * scale, top * scale
         return made
 
     def _check(self) -> None:
@@ -244,7 +249,7 @@ class Camera(Record):
         """Width / height that the camera is made for; 0 if it is made for any."""
         c = self._c
         if self.sides:
-            return (c.sides[1] - c.sides[0]) / (c.sides[3] - c.sides[2])
+            return float((c.sides[1] - c.sides[0]) / (c.sides[3] - c.sides[2]))
         if c.orthographic:
-            return c.half_width / c.half_height if c.half_width > 0 else 0.0
-        return c.aspect
+            return float(c.half_width / c.half_height) if c.half_width > 0 else 0.0
+        return float(c.aspect)

@@ -2,36 +2,36 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
+from typing import Any, List, Optional
 
 from ._errors import UsageError
 from ._lazy import np
-from ._types import Color
+from ._types import Array, Color
 from ._values import shown
 
 #: Largest number of a colour that is not light. Floats above it are taken for codes from 0 to 255, which would be far too bright.
 BRIGHTEST = 16.0
 
 
-def linear_from_srgb(share) -> np.ndarray:
+def linear_from_srgb(share: Any) -> Array:
     """Light of an sRGB value, both 0 to 1."""
     share = np.asarray(share, dtype=np.float64)
     return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
 
 
-def srgb_from_linear(light) -> np.ndarray:
+def srgb_from_linear(light: Any) -> Array:
     """The sRGB value of light, both 0 to 1."""
     light = np.asarray(light)
     return np.where(light <= 0.0031308, light * 12.92, 1.055 * light ** (1 / 2.4) - 0.055)
 
 
-def linear_from_codes(codes) -> np.ndarray:
+def linear_from_codes(codes: Any) -> Array:
     """Linear colours of uint8 sRGB codes; a fourth channel is alpha, which is linear already."""
     share = np.asarray(codes) / 255.0
     return np.concatenate([linear_from_srgb(share[..., :3]), share[..., 3:]], axis=-1)
 
 
-def color(value: Color, name: str, count: int, most: Optional[float] = None) -> list:
+def color(value: Color, name: str, count: int, most: Optional[float] = None) -> List[Any]:
     """`count` numbers of linear light, the fourth being alpha, 1 if it is left out.
 
     Texts and uint8 are sRGB. most: largest number of red, green and blue. None: it is light, which has no limit.
@@ -59,7 +59,7 @@ def color(value: Color, name: str, count: int, most: Optional[float] = None) -> 
     return numbers + [1.0] * (count - len(numbers))
 
 
-def _codes_of(text: str, name: str) -> np.ndarray:
+def _codes_of(text: str, name: str) -> Array:
     digits = text[1:] if text.startswith("#") else ""
     if len(digits) in (3, 4):
         digits = "".join(2 * digit for digit in digits)

@@ -7,7 +7,7 @@ import os
 import signal
 import threading
 from _weakrefset import WeakSet  # weakref takes a tenth of halflit's own import
-from typing import Iterator
+from typing import Any, Dict, Iterator
 
 from . import _c
 from ._errors import CancelledError, UsageError
@@ -31,7 +31,7 @@ class SceneLock:
             raise UsageError("another thread used this scene when the process was forked: make it anew in this process")
         self._lock.acquire()
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: Any) -> None:
         self._lock.release()
 
     def after_fork(self) -> None:
@@ -42,7 +42,7 @@ class SceneLock:
             self._lock, self._lost = threading.RLock(), True
 
 
-_LOCKS: WeakSet = WeakSet()
+_LOCKS: WeakSet[Any] = WeakSet()
 
 
 def _after_fork() -> None:
@@ -96,7 +96,7 @@ class Execution:
     lock: of the scene, which the frame holds while it waits for the callbacks.
     """
 
-    def __init__(self, options: dict, lock: SceneLock):
+    def __init__(self, options: Dict[Any, Any], lock: SceneLock) -> None:
         self.lock = lock
         self.struct = struct = _c.make("execution")
         self.raised: BaseException | None = None
@@ -119,7 +119,7 @@ class Execution:
             struct.progress = _c.Progress(lambda _, share: self._guarded(progress, share))
             struct.cancelled = _c.Cancelled(lambda _: 1 if self._stops(cancelled) else 0)
 
-    def _stops(self, cancelled) -> bool:
+    def _stops(self, cancelled: Any) -> bool:
         if _CALLS.ending or self.raised:
             return True
         return bool(self._guarded(lambda: bool(cancelled and cancelled())) or self.raised)
@@ -140,7 +140,7 @@ class Execution:
             yield
             return
 
-        def note(*_) -> None:
+        def note(*_: Any) -> None:
             self.raised = self.raised or KeyboardInterrupt()
 
         signal.signal(signal.SIGINT, note)
@@ -149,7 +149,7 @@ class Execution:
         finally:
             signal.signal(signal.SIGINT, signal.default_int_handler)
 
-    def _guarded(self, function, *arguments):
+    def _guarded(self, function: Any, *arguments: Any) -> Any:
         before = getattr(_CALLING, "lock", None)
         _CALLING.lock = self.lock
         try:

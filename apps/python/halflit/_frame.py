@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, Iterator
+from typing import Any, Dict, Iterator, List
 
 import numpy as np
 
@@ -21,13 +21,13 @@ _QUALITIES = {"fast": (2, 99), "draft": (8, 95)}
 _MEASURED = ("samples", "anisotropy", "shadow_size")
 
 
-def draw(scene, size, options: dict) -> Picture:
+def draw(scene: Any, size: Any, options: Dict[Any, Any]) -> Picture:
     """The frame that the keywords ask for. The scene is locked."""
     check_names(options)
     return draw_setup(scene, (choose if options.get("setup") is None else kept)(scene, size, options), options)
 
 
-def draw_batch(scene, cameras: list, size, light: str, options: dict) -> Iterator[Picture]:
+def draw_batch(scene: Any, cameras: List[Any], size: Any, light: str, options: Dict[Any, Any]) -> Iterator[Picture]:
     """A picture for each camera, drawn when it is asked for. The scene is locked meanwhile."""
     check_names(options, [name for name in KNOWN if name not in ("camera", "azimuth", "elevation", "view", "fit", "setup", "out")], "render_batch")
     if light not in ("fixed", "viewer"):
@@ -36,7 +36,7 @@ def draw_batch(scene, cameras: list, size, light: str, options: dict) -> Iterato
     return frames(scene, views, size, light == "fixed", options)
 
 
-def frames(scene, views: list, size, is_fixed: bool, options: dict) -> Iterator[Picture]:
+def frames(scene: Any, views: List[Any], size: Any, is_fixed: bool, options: Dict[Any, Any]) -> Iterator[Picture]:
     """The pictures of render_batch(). All have the size, and if is_fixed the light and exposure, of the first."""
     first = None
     for view in views:
@@ -54,7 +54,7 @@ def frames(scene, views: list, size, is_fixed: bool, options: dict) -> Iterator[
         yield picture
 
 
-def draw_views(scene, views: list, size, light: str, options: dict) -> Dict[Any, Picture]:
+def draw_views(scene: Any, views: List[Any], size: Any, light: str, options: Dict[Any, Any]) -> Dict[Any, Picture]:
     """The pictures of render_views(), by their views."""
     lens = {name: options.pop(name) for name in ("zoom", "fov", "orthographic", "fit") if name in options}
     check_names(options, [name for name in KNOWN if name not in (*VIEW[: VIEW.index("exposure")], "out")], "render_views")
@@ -67,14 +67,14 @@ def draw_views(scene, views: list, size, light: str, options: dict) -> Dict[Any,
     return dict(zip(names, draw_batch(scene, cameras, size, light, options)))
 
 
-def view_of(camera) -> Dict[str, Any]:
+def view_of(camera: Any) -> Dict[str, Any]:
     """The keywords of render() for an entry of render_batch(cameras)."""
     if isinstance(camera, (tuple, list)) and len(camera) == 2:
         return {"azimuth": real(camera[0], "azimuth"), "elevation": real(camera[1], "elevation")}
     return {"camera": camera}
 
 
-def draw_setup(scene, setup: Setup, options: dict) -> Picture:
+def draw_setup(scene: Any, setup: Setup, options: Dict[Any, Any]) -> Picture:
     """The frame of a setup."""
     settings = settings_of(scene, setup, options)
     target = Target(setup.size, settings, options)
@@ -91,7 +91,7 @@ def draw_setup(scene, setup: Setup, options: dict) -> Picture:
     return picture
 
 
-def measure(scene, size, quality, known, options: dict) -> Dict[str, Any]:
+def measure(scene: Any, size: Any, quality: Any, known: Any, options: Dict[Any, Any]) -> Dict[str, Any]:
     """What halflit_measure finds for the view. The scene is locked."""
     check_names(options, function="measure")
     setup = (choose if options.get("setup") is None else kept)(scene, size, options)
@@ -121,7 +121,7 @@ def measure(scene, size, quality, known, options: dict) -> Dict[str, Any]:
     return found
 
 
-def settings_of(scene, setup: Setup, options: dict):
+def settings_of(scene: Any, setup: Setup, options: Dict[Any, Any]) -> Any:
     """The halflit_settings: those of the setup, and what the keywords say."""
     settings = type(setup._settings).from_buffer_copy(setup._settings)
     apply_settings(settings, options)
@@ -133,7 +133,7 @@ def settings_of(scene, setup: Setup, options: dict):
     return settings
 
 
-def frame(scene, setup: Setup, settings, target: Target, execution: Execution) -> Dict[str, Any]:
+def frame(scene: Any, setup: Setup, settings: Any, target: Target, execution: Execution) -> Dict[str, Any]:
     """Draws into the target, and returns the report."""
     report, camera = _c.make("report", False), drawn_camera(scene._world, setup)
     renderer = renderer_of(scene, execution)
@@ -157,7 +157,7 @@ def frame(scene, setup: Setup, settings, target: Target, execution: Execution) -
     return found
 
 
-def renderer_of(scene, execution: Execution):
+def renderer_of(scene: Any, execution: Execution) -> Any:
     """The scene's renderer, which keeps what it computed, set to draw in this way."""
     if scene._renderer is None:
         scene._renderer = _c.Handle("renderer_create", "renderer_destroy", ctypes.byref(execution.struct))
@@ -167,7 +167,7 @@ def renderer_of(scene, execution: Execution):
     return scene._renderer
 
 
-def frame_warnings(renderer, count: int) -> list:
+def frame_warnings(renderer: Any, count: int) -> List[Any]:
     text, lines = ctypes.c_char_p(), []
     for i in range(count):
         _c.call("renderer_get_warning", renderer, i, ctypes.byref(text))

@@ -3,20 +3,22 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union, cast
 
 from . import _c
 from ._errors import UsageError
 from ._lazy import np
 from ._color import color as color_of
 from ._material import Material
+from ._members import MaterialMembers
 from ._record import chosen
 from ._scene_base import SceneBase
+from ._types import Array, Unpack
 from ._values import shown, truth, whole
 
 _COLORS = {"srgb": "SRGB", "linear": "LINEAR", "srgb_by_alpha": "SRGB_BY_ALPHA", "normal": "NORMAL"}
 
-MaterialOf = Union[int, Material, Dict[str, Any], None]
+MaterialOf = Union[int, Material, MaterialMembers, None]
 
 
 class Geometry(SceneBase):
@@ -24,7 +26,7 @@ class Geometry(SceneBase):
 
     # ---- textures and materials -----------------------------------------------------------------------------------------
 
-    def add_texture(self, pixels, color: str = "srgb") -> int:
+    def add_texture(self, pixels: Any, color: str = "srgb") -> int:
         """Adds a texture of uint8 (height, width) or (height, width, 1 to 4 channels), row 0 on top, or of a PIL picture, and returns its
         index. One channel is grey, two are grey and alpha.
 
@@ -34,7 +36,7 @@ class Geometry(SceneBase):
         self._texture("scene_add_texture", (), pixels, color, (ctypes.byref(index),))
         return index.value
 
-    def set_texture(self, index: int, pixels, color: str = "srgb") -> None:
+    def set_texture(self, index: int, pixels: Any, color: str = "srgb") -> None:
         """Replaces a texture; the size may differ."""
         self._texture("scene_set_texture", (index,), pixels, color, ())
 
@@ -42,7 +44,7 @@ class Geometry(SceneBase):
         """Removes a texture that no material uses; add_texture() may use its index again."""
         self._change("scene_remove_texture", index)
 
-    def _texture(self, name: str, before: tuple, pixels, color: str, after: tuple) -> None:
+    def _texture(self, name: str, before: Tuple[Any, ...], pixels: Any, color: str, after: Tuple[Any, ...]) -> None:
         from ._arrays import rgba8
 
         if not isinstance(color, str) or color not in _COLORS:
@@ -51,7 +53,7 @@ class Geometry(SceneBase):
         code = _c.CONSTANTS["HALFLIT_COLOR_" + _COLORS[color]]
         self._change(name, *before, array.ctypes.data, array.shape[1], array.shape[0], array.strides[0], code, *after)
 
-    def add_material(self, material: Union[Material, Dict[str, Any], None] = None, **members: Any) -> int:
+    def add_material(self, material: Union[Material, MaterialMembers, None] = None, **members: Unpack[MaterialMembers]) -> int:
         """Adds a Material with these members, and returns its index: add_material(base_color=(1, 0.4, 0.2), roughness=0.3)."""
         index = ctypes.c_int32()
         made = Material._from({} if material is None else material, **members)
@@ -63,9 +65,10 @@ class Geometry(SceneBase):
         material = Material()
         with self._lock:  # its name is the scene's
             self._call("scene_get_material", index, ctypes.byref(material._c))
-            return material._copied()
+            copied: Material = material._copied()
+            return copied
 
-    def set_material(self, index: int, material: Union[Material, Dict[str, Any], None] = None, **members: Any) -> None:
+    def set_material(self, index: int, material: Union[Material, MaterialMembers, None] = None, **members: Unpack[MaterialMembers]) -> None:
         """Replaces a material in all that has it, or some of its members: set_material(0, roughness=0.3)."""
         with self._lock:
             made = Material._from(self.material(index) if material is None else material, **members)
@@ -75,18 +78,18 @@ class Geometry(SceneBase):
 
     def add_mesh(
         self,
-        vertices,
-        faces=None,
+        vertices: Any,
+        faces: Any = None,
         *,
-        normals=None,
-        uv=None,
-        uv1=None,
-        colors=None,
-        tangents=None,
+        normals: Any = None,
+        uv: Any = None,
+        uv1: Any = None,
+        colors: Any = None,
+        tangents: Any = None,
         material: MaterialOf = None,
         topology: str = "triangles",
         name: Optional[str] = None,
-        matrix=None,
+        matrix: Any = None,
         place: bool = True,
     ) -> int:
         """Adds a mesh and returns its index. It is drawn where `matrix` (4 x 4; the identity) places it, unless place is False.
@@ -112,7 +115,8 @@ class Geometry(SceneBase):
                 self._add_instance(index.value, at)
             return index.value
 
-    def set_mesh(self, index: int, vertices, faces=None, *, normals=None, uv=None, uv1=None, colors=None, tangents=None,
+    def set_mesh(self, index: int, vertices: Any, faces: Any = None, *, normals: Any = None, uv: Any = None, uv1: Any = None,
+                 colors: Any = None, tangents: Any = None,
                  material: MaterialOf = None, topology: str = "triangles", name: Optional[str] = None) -> None:  # fmt: skip
         """Replaces a mesh in all its instances; arguments as in add_mesh(), but material None: the mesh keeps its material.
 
@@ -134,15 +138,17 @@ class Geometry(SceneBase):
             self._change("scene_set_mesh", index, ctypes.byref(arrays.struct(used)))
             self._remember(index, arrays, used, own or (material is None and index in self._own_materials))
 
-    def _remember(self, mesh: int, arrays, material: int, own: bool) -> None:
+    def _remember(self, mesh: int, arrays: Any, material: int, own: bool) -> None:
         self._materials[mesh] = material
         self._own_materials.pop(mesh, None)
         if own:
             self._own_materials[mesh] = material
         (self._smooth.add if arrays.is_smooth else self._smooth.discard)(mesh)
 
-    def _material_index(self, material: Union[int, Material, Dict[str, Any]]) -> int:
-        return self.add_material(material) if isinstance(material, (Material, dict)) else material
+    def _material_index(self, material: Union[int, Material, MaterialMembers]) -> int:
+        if isinstance(material, (Material, dict)):
+            return self.add_material(material)
+        return cast(int, material)
 
     def _check_mesh(self, index: int) -> None:
         if not 0 <= whole(index, "mesh", -(2**31), 2**31 - 1) < self.counts["meshes"]:
@@ -154,7 +160,7 @@ class Geometry(SceneBase):
             self._plain = self.add_material(roughness=0.6, double_sided=True)
         return self._plain
 
-    def set_vertices(self, mesh: int, vertices, normals=None) -> None:
+    def set_vertices(self, mesh: int, vertices: Any, normals: Any = None) -> None:
         """Moves the vertices of a mesh that was added: (n, 3), n as before.
 
         normals: (n, 3), or "smooth" as in add_mesh() if the mesh was added so. None: those of a mesh that was given none are made anew,
@@ -183,7 +189,7 @@ class Geometry(SceneBase):
 
     # ---- instances ------------------------------------------------------------------------------------------------------
 
-    def add_instance(self, mesh: int, matrix=None, *, color=None, material: Optional[int] = None, visible: bool = True,
+    def add_instance(self, mesh: int, matrix: Any = None, *, color: Any = None, material: Optional[int] = None, visible: bool = True,
                      name: Optional[str] = None) -> int:  # fmt: skip
         """Places a mesh in the world by a 4 x 4 matrix (the identity), and returns the instance's index.
 
@@ -200,18 +206,18 @@ class Geometry(SceneBase):
                     raise
             return index
 
-    def _add_instance(self, mesh: int, place: np.ndarray) -> int:
+    def _add_instance(self, mesh: int, place: Array) -> int:
         index = ctypes.c_int32()
         self._change("scene_add_instance", mesh, place.ctypes.data, ctypes.byref(index))
         return index.value
 
-    def add_instances(self, mesh: int, matrices) -> range:
+    def add_instances(self, mesh: int, matrices: Any) -> range:
         """Places a mesh by many matrices, (n, 4, 4), and returns the instances' indices."""
         places, first = self._placements(matrices), ctypes.c_int32()
         self._change("scene_add_instances", mesh, len(places), places.ctypes.data, ctypes.byref(first))
         return range(first.value, first.value + len(places))
 
-    def instance(self, index: int) -> Tuple[int, np.ndarray]:
+    def instance(self, index: int) -> Tuple[int, Array]:
         """Mesh and matrix, float64 (4, 4), of an instance."""
         found = self._instance(index)
         columns = np.array(found.world_from_object, np.float64).reshape(4, 4)
@@ -228,13 +234,13 @@ class Geometry(SceneBase):
             "node": None if found.node < 0 else found.node,
         }
 
-    def _instance(self, index: int):
+    def _instance(self, index: int) -> Any:
         found = _c.make("instance", False)
         self._call("scene_get_instance", index, ctypes.byref(found))
         return found
 
-    def set_instance(self, index: int, matrix=None, *, color=None, material: Optional[int] = None, visible: Optional[bool] = None,
-                     mesh: Optional[int] = None, name: Optional[str] = None) -> None:  # fmt: skip
+    def set_instance(self, index: int, matrix: Any = None, *, color: Any = None, material: Optional[int] = None,
+                     visible: Optional[bool] = None, mesh: Optional[int] = None, name: Optional[str] = None) -> None:  # fmt: skip
         """Moves an instance, or changes what else is given: see add_instance(). material -1: the mesh's. The next frame recomputes what
         depends on it alone."""
         with self._lock:
@@ -257,7 +263,7 @@ class Geometry(SceneBase):
             if name is not None:
                 self.set_name("instance", index, name)
 
-    def set_instances(self, matrices, indices=None) -> None:
+    def set_instances(self, matrices: Any, indices: Any = None) -> None:
         """Moves many instances at once by matrices (n, 4, 4). indices: theirs; 0, 1, 2 and so on if they are left out."""
         places = self._placements(matrices)
         which = None if indices is None else np.ascontiguousarray(indices, np.int32)
@@ -285,14 +291,16 @@ class Geometry(SceneBase):
     @property
     def nodes(self) -> List[Dict[str, Any]]:
         """The file's tree: of each node name, parent (None: a root), instances (indices, which aovs["id"] - 1 has), camera, light."""
-        found, node = [], _c.make("node", False)
+        found: List[Dict[str, Any]] = []
+        node = _c.make("node", False)
         with self._lock:
             for i in range(self.counts["nodes"]):
                 self._call("scene_get_node", i, ctypes.byref(node))
                 instances = (ctypes.c_int32 * node.instance_count).from_address(node.instances) if node.instance_count else ()
                 places = (("parent", node.parent), ("camera", node.camera), ("light", node.light))
                 indices = {key: None if value < 0 else value for key, value in places}
-                found.append({"name": _c.text_of(node.name), "instances": list(instances), **indices})
+                part: Dict[str, Any] = {"name": _c.text_of(node.name), "instances": list(instances)}
+                found.append({**part, **indices})
         return found
 
     def add_ground(self) -> int:
@@ -301,14 +309,14 @@ class Geometry(SceneBase):
         self._change("scene_add_ground", ctypes.byref(index))
         return index.value
 
-    def _placement(self, matrix) -> np.ndarray:
+    def _placement(self, matrix: Any) -> Array:
         """16 float32 that place a mesh in the world that is drawn, by a matrix of the file's world."""
         from . import _arrays
 
         given = np.eye(4) if matrix is None else _arrays.matrix(matrix)
         return _arrays.columns_of(self._world.matrix_in(given))
 
-    def _placements(self, matrices) -> np.ndarray:
+    def _placements(self, matrices: Any) -> Array:
         """The same of many matrices: float32 (n, 16)."""
         from . import _arrays
 

@@ -5,10 +5,13 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 
+__all__ = ["LazyModule", "np"]
+
+
 class LazyModule:
     """Stands for a module. Annotations may name it too: typing.get_type_hints() then finds its types."""
 
-    def __init__(self, name: str):
+    def __init__(self, name: str) -> None:
         self._name = name
 
     def __getattr__(self, name: str) -> Any:

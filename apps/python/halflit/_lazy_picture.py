@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 
 from ._lazy import LazyModule
 
+__all__ = ["pictures"]
+
 if TYPE_CHECKING:
     from . import _picture as pictures
 else:

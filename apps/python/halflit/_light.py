@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable
+from typing import Any, Callable, Optional, cast
 
 from ._errors import UsageError
 from ._lazy import np  # noqa: F401  (in annotations)
+from ._members import LightKeywords
 from ._record import Record
-from ._types import Color, Point
+from ._types import Color, Point, Unpack
 from ._values import reals, shown
 
 
@@ -29,7 +30,8 @@ class Light(Record):
         shadow_radius: size for soft shadows. Directional: angle from middle to rim, radians; others: world units (0)
     """
 
-    _kind, _choices, _colors = "light", {"type": "LIGHT"}, {"color": None}
+    _kind, _choices = "light", {"type": "LIGHT"}
+    _colors = {"color": cast(Optional[float], None)}
     _ranges = {
         **dict.fromkeys(("range", "source_radius", "cone_power", "shadow_radius"), (0.0, math.inf)),
         **dict.fromkeys(("inner_cone_rad", "outer_cone_rad"), (0.0, math.pi)),
@@ -45,17 +47,17 @@ class Light(Record):
     cone_power: float
     shadow_radius: float
 
-    def __init__(self, type: str = "directional", **members: Any):
+    def __init__(self, type: str = "directional", **members: Unpack[LightKeywords]) -> None:
         super().__init__(type=type, **members)
 
-    def __setattr__(self, name: str, value) -> None:
+    def __setattr__(self, name: str, value: Any) -> None:
         if name == "direction" and not any(reals(value, 3, name)):
             raise UsageError(f"direction: expected a length above 0, found {shown(value)}")
         super().__setattr__(name, value)
         if name == "position":
             self._exact[name] = tuple(reals(value, 3, name))
 
-    def _moved(self, move: Callable, scale: float) -> Light:
+    def _moved(self, move: Callable[..., Any], scale: float) -> Light:
         """The light in a world whose points are moved and whose lengths are multiplied so."""
         made = self._copied()
         if self.type == "directional":

@@ -11,15 +11,16 @@ from ._color import color
 from ._errors import UsageError
 from ._lazy import np
 from ._light import Light
+from ._members import LightKeywords, LightMembers
 from ._scene_base import SceneBase
-from ._types import Color
+from ._types import Color, Unpack
 from ._values import real, truth
 
 
 class Lighting(SceneBase):
     """The methods of a Scene about light."""
 
-    def add_light(self, light: Union[Light, Dict[str, Any], str] = "directional", **members: Any) -> int:
+    def add_light(self, light: Union[Light, LightMembers, str] = "directional", **members: Unpack[LightKeywords]) -> int:
         """Adds a Light, or one of this type, with these members: add_light("point", position=(0, 2, 0), color=(4, 4, 4))."""
         index = ctypes.c_int32()
         made = Light(light, **members) if isinstance(light, str) else Light._from(light, **members)
@@ -33,7 +34,7 @@ class Lighting(SceneBase):
         self._call("scene_get_light", index, ctypes.byref(light._c))
         return self._world.out(light)
 
-    def set_light(self, index: int, light: Union[Light, Dict[str, Any]]) -> None:
+    def set_light(self, index: int, light: Union[Light, LightMembers]) -> None:
         """Replaces a light."""
         self._change("scene_set_light", index, ctypes.byref(self._world.into(Light._from(light))._c))
 
@@ -46,7 +47,7 @@ class Lighting(SceneBase):
         given = ((sky, "sky"), (sky if ground is None else ground, "ground"))
         self._change("scene_set_ambient", *((ctypes.c_float * 3)(*color(value, name, 3)) for value, name in given))
 
-    def set_environment(self, image, *, rotate: float = 0.0, extract_suns: bool = True, calibrated: bool = False) -> None:
+    def set_environment(self, image: Any, *, rotate: float = 0.0, extract_suns: bool = True, calibrated: bool = False) -> None:
         """Lights the scene by an image of the light from all directions, in the place of ambient light.
 
         image: floats (height, width, 3), linear, row 0 straight up, the middle column along -z; a path (.hdr, .pfm, .exr); or "sky".

@@ -7,8 +7,9 @@ from typing import Any, Dict, Tuple, Union
 
 from . import _c
 from ._lazy import np  # noqa: F401  (in annotations)
+from ._members import LobeMembers, MaterialMembers, TextureUseKeywords, TextureUseMembers
 from ._record import Record
-from ._types import Color
+from ._types import Color, Unpack
 from ._values import whole
 
 
@@ -29,7 +30,7 @@ class Lobe(Record):
     power: float
     normalize: bool
 
-    def __init__(self, wrap: float = 0.0, power: float = 1.0, normalize: bool = False):
+    def __init__(self, wrap: float = 0.0, power: float = 1.0, normalize: bool = False) -> None:
         self._begin(_c.STRUCT["halflit_lobe"]())
         self.wrap, self.power, self.normalize = wrap, power, normalize
 
@@ -41,7 +42,7 @@ class Lobe(Record):
         return lobe
 
     @classmethod
-    def _from(cls, value, name: str = "lobe", **members: Any):
+    def _from(cls, value: Any, name: str = "lobe", **members: Any) -> Any:
         if isinstance(value, str):
             value = cls.named(value)
         elif isinstance(value, (tuple, list)) and len(value) == 2 and isinstance(value[0], str):
@@ -76,16 +77,22 @@ class TextureUse(Record):
     row_u: Tuple[float, float, float]
     row_v: Tuple[float, float, float]
 
-    def __init__(self, texture: int = -1, **members: Any):
+    def __init__(self, texture: int = -1, **members: Unpack[TextureUseKeywords]) -> None:
         self._begin(_c.STRUCT["halflit_texture_use"].from_buffer_copy(_c.make("material").base_color_texture))
-        for name, value in {"texture": texture, **members}.items():
+        self.texture = texture
+        for name, value in members.items():
             setattr(self, name, value)
 
     @classmethod
-    def _from(cls, value, name: str = "texture", **members: Any):
+    def _from(cls, value: Any, name: str = "texture", **members: Any) -> Any:
         if not isinstance(value, (cls, dict)):
             value = cls(-1 if value is None else whole(value, name, -1, 2**31 - 1))
         return super()._from(value, name, **members)
+
+
+#: What a lobe, or a texture of a material, may be given as.
+LobeOf = Union[Lobe, LobeMembers, str, Tuple[str, float]]
+TextureOf = Union[TextureUse, TextureUseMembers, int, None]
 
 
 class Material(Record):
@@ -232,13 +239,13 @@ class Material(Record):
     lobe: Union[Lobe, str, Tuple[str, float]]
     shadow_catcher: bool
 
-    def __init__(self, **members: Any):
+    def __init__(self, **members: Unpack[MaterialMembers]) -> None:
         super().__init__()
         self._c.metallic = 0.0
         for name, value in members.items():
             setattr(self, name, value)
 
-    def __setattr__(self, name: str, value) -> None:
+    def __setattr__(self, name: str, value: Any) -> None:
         super().__setattr__(name, value)
         if name == "metallic":
             object.__setattr__(self, "_metallic_given", True)
@@ -246,9 +253,9 @@ class Material(Record):
             self._c.metallic = 1.0  # a factor of 0 would hide the texture's
 
     def _has_metallic_texture(self) -> bool:
-        return self._c.metallic_roughness_texture.texture >= 0
+        return bool(self._c.metallic_roughness_texture.texture >= 0)
 
-    def _copied(self):
+    def _copied(self) -> Any:
         other = super()._copied()
         object.__setattr__(other, "_metallic_given", self._metallic_given)
         return other

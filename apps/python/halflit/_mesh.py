@@ -7,6 +7,7 @@ import numpy as np
 
 from . import _arrays, _c
 from ._errors import UsageError
+from ._types import Array
 
 #: Topology -> vertices of a primitive.
 CORNERS = {"triangles": 3, "lines": 2, "points": 1}
@@ -15,7 +16,7 @@ CORNERS = {"triangles": 3, "lines": 2, "points": 1}
 class MeshArrays:
     """What add_mesh() and set_mesh() are given. Everything is checked here, so that a mesh that is refused leaves nothing in the scene."""
 
-    def __init__(self, name: Optional[str], topology: str, vertices, faces, normals, **attributes: Any):
+    def __init__(self, name: Optional[str], topology: str, vertices: Any, faces: Any, normals: Any, **attributes: Any) -> None:
         if not isinstance(topology, str) or topology not in CORNERS:
             raise UsageError(f"topology: expected one of {', '.join(CORNERS)}, found {topology!r}")
         self.topology = topology
@@ -31,14 +32,14 @@ class MeshArrays:
                 raise UsageError(f'normals: expected an array, or "smooth" for triangles, found {normals!r}')
             normals = None
         #: member of halflit_mesh -> array or None
-        self.arrays: Dict[str, Optional[np.ndarray]] = {"positions": positions, "indices": self.corners}
+        self.arrays: Dict[str, Optional[Array]] = {"positions": positions, "indices": self.corners}
         named = (("normals", "normals", normals, 3), ("uv0", "uv", attributes["uv"], 2), ("uv1", "uv1", attributes["uv1"], 2))
         for member, argument, value, columns in (*named, ("tangents", "tangents", attributes["tangents"], 4)):
             self.arrays[member] = None if value is None else _arrays.finite(value, columns, argument, self.count)
         colors = attributes["colors"]
         self.arrays["colors"] = None if colors is None else _arrays.colors(colors, self.count)
 
-    def struct(self, material: int):
+    def struct(self, material: int) -> Any:
         """The halflit_mesh, which points to the arrays of this object."""
         mesh = _c.make("mesh")
         for member, array in self.arrays.items():

@@ -1,6 +1,7 @@
 """Motion between two pictures. This module imports numpy."""
 from __future__ import annotations
 
+from typing import Any
 import ctypes
 
 import numpy as np
@@ -8,11 +9,12 @@ import numpy as np
 from . import _c
 from ._errors import UsageError
 from ._setup import given_camera
+from ._types import Array
 
 _NEEDED = {"id": "uint32", "triangle": "uint32", "barycentric": "float32"}
 
 
-def motion(scene, picture, camera, other) -> np.ndarray:
+def motion(scene: Any, picture: Any, camera: Any, other: Any) -> Array:
     """See Scene.motion()."""
     aovs, drawn = getattr(picture, "aovs", {}), getattr(picture, "camera", None)
     missing = [name for name in _NEEDED if name not in aovs]

@@ -83,7 +83,7 @@ def check_names(options: Iterable[str], known: Iterable[str] = KNOWN, function: 
             raise TypeError(f"{function}() has no keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
 
 
-def apply_settings(settings, options: dict) -> None:
+def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
     """Writes the keywords that were given into a halflit_settings."""
     for name in (*SETTINGS, "background", "edge_color", "lobe"):
         value = options.get(name)
@@ -102,7 +102,7 @@ def apply_settings(settings, options: dict) -> None:
             settings.put(member, truth(value, name) if kind == "bool" else value, name)
 
 
-def set_background(settings, value) -> None:
+def set_background(settings: Any, value: Any) -> None:
     if isinstance(value, str) and value in ("environment", "transparent"):
         settings.background_environment = value == "environment"
         if value == "transparent":
@@ -111,12 +111,12 @@ def set_background(settings, value) -> None:
     settings.background = (ctypes.c_float * 4)(*color(value, "background", 4, BRIGHTEST))
 
 
-def settings_dict(settings, scale: float = 1.0) -> Dict[str, Any]:
+def settings_dict(settings: Any, scale: float = 1.0) -> Dict[str, Any]:
     """All settings by the names of halflit_settings. scale: of lengths in the world that is drawn."""
     values: Dict[str, Any] = {}
     kinds = dict(SETTINGS.values())
     for name, _ in settings._fields_:
-        value = getattr(settings, name)
+        value: Any = getattr(settings, name)
         if name in ("size", "reserved"):
             continue
         if kinds.get(name, "").isupper():
@@ -124,7 +124,8 @@ def settings_dict(settings, scale: float = 1.0) -> Dict[str, Any]:
         elif name == "lobe":
             value = Lobe._of(value).to_dict()
         elif isinstance(value, ctypes.Structure):
-            value = tuple(getattr(value, member) for member, _ in value._fields_)
+            fields: Any = value._fields_
+            value = tuple(getattr(value, field[0]) for field in fields)
         values[name] = tuple(value) if isinstance(value, ctypes.Array) else value
     values["shadow_fade"] /= scale
     return values

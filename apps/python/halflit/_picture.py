@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Dict, Optional
+from typing import TYPE_CHECKING, Any, BinaryIO, Dict, Optional, Tuple, Union, cast
 
 import numpy as np
 
@@ -12,12 +12,19 @@ from ._camera import Camera
 from ._color import srgb_from_linear
 from ._errors import UsageError
 from ._options import settings_dict
+from ._types import Array
 
 #: Kinds of files whose pixels are floats; all others have 8-bit codes.
 _LINEAR = (".exr", ".hdr", ".pfm")
 
 
-class Picture(np.ndarray):
+if TYPE_CHECKING:
+    _Base = np.ndarray[Any, np.dtype[Any]]
+else:
+    _Base = np.ndarray
+
+
+class Picture(_Base):
     """The pixels of a frame, shape (height, width, 4), row 0 on top.
 
     uint8: red, green and blue in sRGB codes, linear alpha. float32: linear light after exposure, without a tone curve.
@@ -26,15 +33,16 @@ class Picture(np.ndarray):
     """
 
     report: Dict[str, Any]  #: times, counts, the bound on the error, warnings: see halflit_report in halflit.h
-    aovs: Dict[str, np.ndarray]  #: the planes that render(aovs=...) asked for, by name
+    aovs: Dict[str, Array]  #: the planes that render(aovs=...) asked for, by name
     camera: Optional[Camera]  #: the camera that drew it
     premultiplied: bool  #: colours are multiplied by alpha; files and notebooks get them divided again
 
-    def __array_finalize__(self, source) -> None:
-        self.report, self.aovs, self.camera, self._settings = {}, {}, None, {}
+    def __array_finalize__(self, source: Any) -> None:
+        self.report, self.aovs, self.camera = {}, {}, None
+        self._settings: Any = {}  # a dict, or what settings_dict() takes
         self.premultiplied = getattr(source, "premultiplied", False)
 
-    def __array_wrap__(self, array, context=None, return_scalar=False):
+    def __array_wrap__(self, array: Any, context: Any = None, return_scalar: Any = False) -> Any:
         if array.ndim == 0:  # of a reduction
             return array[()]
         return array.view(type(self)) if array is not self else array
@@ -44,13 +52,14 @@ class Picture(np.ndarray):
         """All settings that decided its pixels, by the names of halflit_settings in halflit.h."""
         if not isinstance(self._settings, dict):
             self._settings = settings_dict(*self._settings)
-        return self._settings
+        found: Dict[str, Any] = self._settings
+        return found
 
-    def _told(self) -> tuple:
+    def _told(self) -> Tuple[Any, ...]:
         """What it has beside the pixels."""
         return self.report, self.aovs, self.camera, self.settings, self.premultiplied
 
-    def _tell(self, told: tuple):
+    def _tell(self, told: Tuple[Any, ...]) -> Any:
         self.report, self.aovs, self.camera, self._settings, self.premultiplied = told
         return self
 
@@ -59,7 +68,8 @@ class Picture(np.ndarray):
         report, aovs, camera, settings, premultiplied = self._told()
         planes = {name: plane.copy() for name, plane in aovs.items()}
         told = dict(report), planes, None if camera is None else camera.copy(), dict(settings), premultiplied
-        return super().copy(order)._tell(told)
+        made: Picture = super().copy(order)._tell(told)
+        return made
 
     def __copy__(self) -> Picture:
         return self.copy()
@@ -67,11 +77,12 @@ class Picture(np.ndarray):
     def __deepcopy__(self, memo: Any) -> Picture:
         return self.copy()
 
-    def __reduce__(self):
-        remake, arguments, state = super().__reduce__()[:3]
+    def __reduce__(self) -> Any:
+        made: Any = super().__reduce__()
+        remake, arguments, state = made[:3]
         return remake, arguments, (state, self._told())
 
-    def __setstate__(self, state) -> None:
+    def __setstate__(self, state: Any) -> None:
         pixels, told = state
         super().__setstate__(pixels)
         self._tell(told)
@@ -82,13 +93,27 @@ class Picture(np.ndarray):
         pixels = np.ascontiguousarray(self)
         return f"{_c.function('pixel_hash')(pixels.ctypes.data, pixels.nbytes):016x}"
 
-    def save(self, path) -> None:
+    def save(self, path: Union[str, os.PathLike[Any], BinaryIO], format: Optional[str] = None) -> None:
         """Writes .png, .bmp, .tga, .jpg or .webp, or from float32 also .exr, .hdr or .pfm. The file is old or new, never half written.
 
-        In 8-bit files floats become sRGB codes; light above 1 is cut off.
+        path: its name, or a file object that is open in binary mode. format: as in encode(); that of the name if it is left out, and PNG
+        for a file object without a name. In 8-bit files floats become sRGB codes; light above 1 is cut off.
         """
+        write, named = getattr(path, "write", None), cast(str, path)
+        if write is not None or format is not None:
+            name = getattr(path, "name", None) if write is not None else named
+            ending = "" if not isinstance(name, (str, os.PathLike)) else os.path.splitext(os.fspath(name))[1][1:]
+            encoded = self.encode(format or ending or "png")
+            if write is not None:
+                write(encoded)
+                return
+            part = f"{os.fspath(named)}.{os.getpid()}.part"
+            with open(part, "wb") as file:
+                file.write(encoded)
+            os.replace(part, named)
+            return
         text = _c.bytes_of(path, "path")
-        pixels, target = self._target(os.path.splitext(os.fsdecode(text or b""))[1].lower(), os.fsdecode(path))
+        pixels, target = self._target(os.path.splitext(os.fsdecode(text or b""))[1].lower(), os.fsdecode(named))
         _c.call("write_image", text, ctypes.byref(target))
 
     def to_png(self) -> bytes:
@@ -105,7 +130,7 @@ class Picture(np.ndarray):
         _c.call("encode_image", name, ctypes.byref(target), write, None)
         return taken[0]
 
-    def _target(self, extension: str, name: str) -> tuple:
+    def _target(self, extension: str, name: str) -> Tuple[Any, ...]:
         """The pixels as a file of this kind has them, and the halflit_target that points to them."""
         is_linear = extension in _LINEAR
         if is_linear and self.dtype != np.float32:
@@ -122,7 +147,7 @@ class Picture(np.ndarray):
         target.format = _c.CONSTANTS["HALFLIT_FORMAT_RGBA_F32" if is_linear else "HALFLIT_FORMAT_RGBA8"]
         return pixels, target
 
-    def _straight(self, name: str) -> np.ndarray:
+    def _straight(self, name: str) -> Array:
         """The pixels, colours divided by alpha if they were multiplied by it."""
         pixels = np.asarray(self)
         if pixels.ndim != 3 or pixels.shape[2] not in (3, 4) or 0 in pixels.shape or pixels.dtype not in (np.uint8, np.float32):
@@ -146,7 +171,7 @@ class Picture(np.ndarray):
             return None
 
 
-def codes_of(pixels: np.ndarray) -> np.ndarray:
+def codes_of(pixels: Array) -> Array:
     """uint8 sRGB codes of light; codes stay. Alpha is linear in both."""
     if pixels.dtype == np.uint8:
         return pixels

@@ -5,15 +5,15 @@ from typing import Any, Callable, Sequence, Tuple, TypedDict, Union
 
 from ._camera import Camera
 from ._lazy import np
-from ._material import Lobe
+from ._material import LobeOf
 from ._setup import Setup
-from ._types import Color
+from ._types import Array, Color
 
 
 class ViewOptions(TypedDict, total=False):
     """Keywords of Scene.setup(): see PictureOptions."""
 
-    camera: Union[Camera, int, str, np.ndarray]
+    camera: Union[Camera, int, str, Array]
     azimuth: float
     elevation: float
     zoom: float
@@ -115,9 +115,9 @@ class PictureOptions(ViewOptions, total=False):
     region: Tuple[int, int, int, int]
     dtype: Any
     premultiplied: bool
-    out: np.ndarray
+    out: Array
     aovs: Union[Sequence[str], str]
-    lobe: Union[Lobe, str, Tuple[str, float]]
+    lobe: LobeOf
     # Settings: written by apps/c/members.py.
     max_error: float
     environment_tolerance: float

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Dict, Optional, Tuple, Type
+from typing import TYPE_CHECKING, Any, Dict, FrozenSet, List, Optional, Tuple, Type, TypeVar
 
 from . import _c
 from ._color import color
@@ -14,11 +14,14 @@ from ._errors import UsageError
 from ._values import reals, shown, truth
 
 
+R = TypeVar("R", bound="Record")
+
+
 class Record:
     """Base of the classes with members: keywords of the constructor and attributes are the members of the struct, with its defaults."""
 
     _kind = ""  # name of the struct without halflit_
-    _truths: frozenset = frozenset()
+    _truths: FrozenSet[str] = frozenset()
     _choices: Dict[str, str] = {}  # member -> prefix of its constants
     _colors: Dict[str, Optional[float]] = {}  # member -> largest number, see color(); None: light
     _ranges: Dict[str, Tuple[float, float]] = {}  # member -> least and largest number; all others have to be finite
@@ -26,24 +29,26 @@ class Record:
     _exact: Dict[str, Any]  # members that float32 is too coarse for, far from the origin, as they were given
     _drawn: Any = None  # (World, struct): what this is in the world that is drawn, until a member is set
 
-    def __init__(self, **members: Any):
+    _c: Any  # the struct
+
+    def __init__(self, **members: Any) -> None:
         self._begin(_c.make(self._kind))
         for name, value in members.items():
             setattr(self, name, value)
 
-    def _begin(self, struct) -> None:
+    def _begin(self, struct: Any) -> None:
         object.__setattr__(self, "_c", struct)
         object.__setattr__(self, "_exact", {})
 
     @classmethod
-    def _of(cls, struct):
+    def _of(cls: Type[R], struct: Any) -> R:
         """A record around a struct, which it keeps."""
         record = cls.__new__(cls)
         record._begin(struct)
         return record
 
     @classmethod
-    def _from(cls, value, name: str = "", **members: Any):
+    def _from(cls: Type[R], value: Any, name: str = "", **members: Any) -> R:
         """Converts a dict (or a name, an index) to the record, and sets the members in a copy of it. name: of the argument, for messages."""
         if isinstance(value, dict):
             value = cls(**value)
@@ -53,9 +58,10 @@ class Record:
             value = value._copied()
             for member, wanted in members.items():
                 setattr(value, member, wanted)
-        return value
+        found: R = value
+        return found
 
-    def _copied(self):
+    def _copied(self: R) -> R:
         """Another record that is equal. Its name is its own: that of a scene may go away."""
         other = type(self)._of(type(self._c).from_buffer_copy(self._c))
         if "name" in self._members():
@@ -65,48 +71,51 @@ class Record:
         return other
 
     @classmethod
-    def _members(cls) -> list:
+    def _members(cls) -> List[Any]:
         return [name for name, _ in _c.STRUCT["halflit_" + cls._kind]._fields_ if name not in ("size", "reserved")]
 
-    def __getattr__(self, name: str):
-        if name.startswith("_") or name not in self._members():
-            raise AttributeError(f"{type(self).__name__} has no member {name}")
-        if name in self._exact:
-            return self._exact[name]
-        value = getattr(self._c, name)
-        if name in self._choices:
-            return next((text for text, number in _c.choices(self._choices[name]).items() if number == value), value)
-        if name in self._truths:
-            return bool(value)
-        if isinstance(value, ctypes.Array):
-            return tuple(value)
-        if isinstance(value, ctypes.Structure):
-            return self._nested[type(value).__name__]._of(value)
-        return _c.text_of(value) if name == "name" else value
+    if not TYPE_CHECKING:  # which shall find misspelled members
 
-    def __setattr__(self, name: str, value) -> None:
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_") or name not in self._members():
+                raise AttributeError(f"{type(self).__name__} has no member {name}")
+            if name in self._exact:
+                return self._exact[name]
+            value = getattr(self._c, name)
+            if name in self._choices:
+                return next((text for text, number in _c.choices(self._choices[name]).items() if number == value), value)
+            if name in self._truths:
+                return bool(value)
+            if isinstance(value, ctypes.Array):
+                return tuple(value)
+            if isinstance(value, ctypes.Structure):
+                return self._nested[type(value).__name__]._of(value)
+            return _c.text_of(value) if name == "name" else value
+
+    def __setattr__(self, name: str, value: Any) -> None:
         if name in ("size", "reserved") or name not in self._members():
             raise UsageError(f"{type(self).__name__} has no member {name}, expected one of {', '.join(self._members())}")
         setattr(self._c, name, self._converted(name, value))
         object.__setattr__(self, "_drawn", None)
 
-    def _converted(self, name: str, value):
-        field = self._c._kinds[name]
+    def _converted(self, name: str, value: Any) -> Any:
+        kind: Any = self._c._kinds[name]
+        field = kind
         if name in self._choices and isinstance(value, str):
             return chosen(value, self._choices[name], name)
         if name in self._truths:
             return truth(value, name)
         if name in self._colors:
             return field(*(self._checked(x, name) for x in color(value, name, field._length_, self._colors[name])))
-        if issubclass(field, ctypes.Array):
+        if issubclass(kind, ctypes.Array):
             return field(*(self._checked(x, name) for x in reals(value, field._length_, name)))
-        if issubclass(field, ctypes.Structure):
+        if issubclass(kind, ctypes.Structure):
             return self._nested[field.__name__]._from(value, name)._c
         if name == "name":
             return _c.bytes_of(value, name)
         return self._checked(_c.converted(field, value, name), name)
 
-    def _checked(self, number, name: str):
+    def _checked(self, number: Any, name: str) -> Any:
         low, high = self._ranges.get(name, (-math.inf, math.inf))
         if not (math.isfinite(number) and low <= number <= high):
             bounds = "" if name not in self._ranges else f" from {low:g} on" if high == math.inf else f" from {low:g} to {high:g}"
@@ -122,7 +131,7 @@ class Record:
         """The members that repr() leaves out if they have these values."""
         return type(self)().to_dict()
 
-    def __reduce__(self):
+    def __reduce__(self) -> Any:
         """A copy, or a pickle, has a struct of its own."""
         return _remade, (type(self), self.to_dict())
 
@@ -140,14 +149,15 @@ class Record:
     __hash__ = None  # type: ignore[assignment]
 
 
-def _remade(kind, members: dict) -> Record:
-    return kind(**members)
+def _remade(kind: Any, members: Dict[Any, Any]) -> Record:
+    made: Record = kind(**members)
+    return made
 
 
 def chosen(value: str, prefix: str, name: str) -> int:
     """The number of an enumeration's value by its name; - and _ are the same."""
     known = _c.choices(prefix)
     try:
-        return known[value.replace("-", "_")]
+        return int(known[value.replace("-", "_")])
     except KeyError:
         raise UsageError(f"{name}: expected one of {', '.join(known)}, found {value!r}") from None

@@ -8,6 +8,7 @@ from ._errors import UsageError
 from ._lazy import np  # noqa: F401  (in annotations)
 from ._lazy_picture import pictures  # noqa: F401  (in annotations)
 from ._light import Light
+from ._members import LightMembers
 from ._picture_options import PictureOptions
 from ._scene import Scene
 from ._types import Size, Unpack
@@ -18,7 +19,7 @@ def render(
     source: Any,
     size: Size = None,
     *,
-    lights: Iterable[Union[Light, Dict[str, Any]]] = (),
+    lights: Iterable[Union[Light, LightMembers]] = (),
     environment: Any = None,
     environment_rotate: float = 0.0,
     scene_lights: bool = True,
@@ -32,7 +33,7 @@ def render(
 ) -> pictures.Picture:
     """Draws a picture and returns it: a numpy array, uint8 of shape (height, width, 4), which notebooks show.
 
-    source: a model's path, "demo", a file's bytes, (vertices, faces) as arrays, a trimesh, or a Scene.
+    source: a model's path, "demo", a file's bytes, a file object, (vertices, faces) as arrays, a trimesh, or a Scene.
     size: (width, height) in pixels, or the side of a square; 1280 x 720, reduced to the shape of the file's camera, if it is left out.
 
     A file without any keyword gives the pixels that `halflit render FILE --size WxH` gives. Keywords for all but a Scene:
@@ -49,7 +50,7 @@ def render(
         others.update(ground=ground or None, scene_lights=None if scene_lights else False)
         refuse({**of_file, **others}, "a Scene: the Scene has methods for it")
         return source.render(size, **options)
-    lights = [lights] if isinstance(lights, (Light, dict)) else list(lights)
+    added: Any = [lights] if isinstance(lights, (Light, dict)) else list(lights)
     with scene_of(source, of_file) as drawn:
         if not scene_lights:
             drawn.clear_lights()
@@ -62,7 +63,7 @@ def render(
             drawn.set_environment(environment, rotate=environment_rotate)
         else:
             options.setdefault("studio_turn", environment_rotate)
-        for light in lights:
+        for light in added:
             drawn.add_light(Light._from(light, "lights"))
         return drawn.render(size, **options)
 
@@ -78,7 +79,9 @@ def scene_of(source: Any, of_file: Dict[str, Any]) -> Scene:
     """The scene that a source of render() is."""
     from ._trimesh import is_trimesh
 
-    if not (isinstance(source, str) and source == "demo") and isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)):
+    if not (isinstance(source, str) and source == "demo") and (
+        isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)) or hasattr(source, "read")
+    ):
         more = of_file.pop("load")
         if more is not None and not isinstance(more, dict):
             raise UsageError(f"load: expected a dict of keywords of Scene.load(), found {shown(more)}")

@@ -3,17 +3,18 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, BinaryIO, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _c
 from ._camera import Camera
+from ._errors import UsageError
 from ._geometry import Geometry
 from ._lazy import np
 from ._lazy_picture import pictures
 from ._lighting import Lighting
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
-from ._types import Size, Unpack
+from ._types import Array, Size, Unpack
 from ._values import real, truth, up_axis
 from ._world import World
 
@@ -48,19 +49,20 @@ class Scene(Geometry, Lighting):
     @classmethod
     def load(
         cls,
-        source: Union[str, os.PathLike, bytes],
+        source: Union[str, os.PathLike[Any], bytes, bytearray, memoryview, BinaryIO],
         *,
         animation: Union[str, int, None] = None,
         time: float = 0.0,
         scene: Union[str, int, None] = None,
         variant: Optional[str] = None,
         keep_animations: bool = False,
-        base_dir: Union[str, os.PathLike, None] = None,
+        base_dir: Union[str, os.PathLike[Any], None] = None,
         recentre: bool = True,
         up: Optional[str] = None,
         **options: Any,
     ) -> Scene:
-        """A scene of a model's file (glTF, STL, PLY, OBJ, 3MF and others), or of its bytes; the content tells the format.
+        """A scene of a model's file (glTF, STL, PLY, OBJ, 3MF and others), of its bytes, or of a file object that is open in binary mode; the
+        content tells the format.
 
         animation: name or index of the animation that poses it (the first), or "none"; time: seconds.
         scene: name or index of the file's scene. variant: of the file's materials.
@@ -88,9 +90,16 @@ class Scene(Geometry, Lighting):
         how.up = 0 if up is None else up_axis(up)
         for name, text in (("animation", animation), ("scene", scene), ("variant", variant)):
             setattr(how, name, None if text is None else _c.bytes_of(str(text), name))
+        read, name = getattr(source, "read", None), "bytes"
+        if read is not None:
+            source, named = read(), getattr(source, "name", None)
+            name = named if isinstance(named, str) else "file"
+            if not isinstance(source, bytes):
+                raise UsageError(f"source: expected a file that is open in binary mode, found one that reads {type(source).__name__}")
         if isinstance(source, (bytes, bytearray, memoryview)):
             data = bytes(source)
-            handle = _c.Handle("scene_load_memory", "scene_destroy", data, len(data), b"bytes", _c.bytes_of(base_dir, "base_dir"), ctypes.byref(how))
+            names_of_both = os.fsencode(name), _c.bytes_of(base_dir, "base_dir")
+            handle = _c.Handle("scene_load_memory", "scene_destroy", data, len(data), *names_of_both, ctypes.byref(how))
         else:
             handle = _c.Handle("scene_load", "scene_destroy", _c.bytes_of(source, "source"), ctypes.byref(how))
         made = cls._of(handle)
@@ -105,7 +114,7 @@ class Scene(Geometry, Lighting):
         return cls._of(_c.Handle("scene_create_demo", "scene_destroy"))
 
     @classmethod
-    def from_trimesh(cls, mesh) -> Scene:
+    def from_trimesh(cls, mesh: Any) -> Scene:
         """A scene of a trimesh.Trimesh, trimesh.PointCloud or trimesh.Scene: vertices, faces, normals, uv, colours and materials."""
         from ._trimesh import add
 
@@ -142,7 +151,7 @@ class Scene(Geometry, Lighting):
         self._change("scene_pose", None if animation is None else _c.bytes_of(str(animation), "animation"), real(time, "time"))
 
     @property
-    def bounds(self) -> Optional[np.ndarray]:
+    def bounds(self) -> Optional[Array]:
         """World-space box of everything drawn, float64 (2, 3): its least and its largest corner; None if there is nothing."""
         box = np.empty((2, 3), np.float32)
         self._call("scene_get_bounds", box[0].ctypes.data, box[1].ctypes.data)
@@ -226,7 +235,7 @@ class Scene(Geometry, Lighting):
 
         return draw_views(self, list(views), size, light, dict(options))
 
-    def motion(self, picture: pictures.Picture, camera: Camera, scene: Optional[Scene] = None) -> np.ndarray:
+    def motion(self, picture: pictures.Picture, camera: Camera, scene: Optional[Scene] = None) -> Array:
         """How far each point that a picture of this scene shows moves to the picture by another camera: float32 (height, width, 2), pixels,
         x to the right, y down. 0 where nothing is, and for points that are not before both cameras.
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, List, Optional, TypeVar
+from typing import Any, Dict, List, NoReturn, Optional, Set, TypeVar
 
 from . import _c
 from ._errors import UsageError
@@ -24,11 +24,11 @@ class SceneBase:
         self._changes = 0  # of anything that setup() looks at
         self._chosen: Any = None  # what was chosen for the last frame, and the key of what it was chosen for
         self._own_lights = False  # add_light() was called
-        self._told: set = set()  # warnings that were shown
+        self._told: Set[Any] = set()  # warnings that were shown
         self._warnings: Optional[List[str]] = None  # of loading
         self._plain: Optional[int] = None  # material of meshes that are given none
         self._materials: Dict[int, int] = {}  # mesh that was added -> its material
-        self._smooth: set = set()  # meshes with normals="smooth"
+        self._smooth: Set[Any] = set()  # meshes with normals="smooth"
         self._own_materials: Dict[int, int] = {}  # mesh -> material that was made for it alone
 
     @property
@@ -50,12 +50,12 @@ class SceneBase:
             self._warnings = lines
         return list(self._warnings)
 
-    def _call(self, name: str, *arguments) -> None:
+    def _call(self, name: str, *arguments: Any) -> None:
         with self._lock:
             self._check_open()
             _c.call(name, self._handle, *arguments)
 
-    def _change(self, name: str, *arguments) -> None:
+    def _change(self, name: str, *arguments: Any) -> None:
         with self._lock:
             self._call(name, *arguments)
             self._changes += 1
@@ -69,7 +69,7 @@ class SceneBase:
         with self._lock:
             self._handle = self._renderer = None
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
         raise TypeError("a halflit.Scene cannot be copied or pickled: make a second one, or in another process load its file again")
 
     def __enter__(self: Self) -> Self:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Iterable, Optional, Tuple
+from typing import Any, Dict, Iterable, NoReturn, Optional, Tuple
 
 from . import _c
 from ._camera import Camera
@@ -19,7 +19,7 @@ from ._world import World
 class Setup:
     """What Scene.setup() chose: size, camera, light and settings. render(setup=...) draws by it again, whatever has moved since."""
 
-    def __init__(self, camera: Camera, settings, lighting, size: Tuple[int, int]):
+    def __init__(self, camera: Camera, settings: Any, lighting: Any, size: Tuple[int, int]) -> None:
         self.size = size  #: width, height
         self._camera = camera  # in the file's world
         self._settings = settings
@@ -33,9 +33,9 @@ class Setup:
     @property
     def exposure(self) -> float:
         """Factor on all light."""
-        return self._settings.exposure
+        return float(self._settings.exposure)
 
-    def __reduce_ex__(self, protocol):
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
         raise TypeError("a halflit.Setup cannot be copied or pickled: it belongs to its scene")
 
     def _seen_by(self, camera: Camera) -> Setup:
@@ -46,7 +46,7 @@ class Setup:
 class Request:
     """A halflit_picture_request, with what it points to: a camera in the world that is drawn, and the name of one of the scene."""
 
-    def __init__(self, struct, camera: Optional[Camera], name: Optional[str]):
+    def __init__(self, struct: Any, camera: Optional[Camera], name: Optional[str]) -> None:
         self.struct = struct
         self.camera = camera
         struct.camera = None if camera is None else ctypes.addressof(camera._c)
@@ -54,7 +54,7 @@ class Request:
         self.name = name
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> Tuple[Any, ...]:
         """Equal requests have equal keys. The pointers at the structs' begin do not count."""
         pointer = ctypes.sizeof(ctypes.c_size_t)
         return (
@@ -69,7 +69,7 @@ def check_view(options: Iterable[str]) -> None:
     check_names(options, [name for name in VIEW if name != "setup"], "setup")
 
 
-def checked_size(size) -> Tuple[int, int]:
+def checked_size(size: Any) -> Tuple[int, int]:
     if isinstance(size, (int, np.integer)):
         size = (size, size)
     found = sized(size, "size")
@@ -81,7 +81,7 @@ def checked_size(size) -> Tuple[int, int]:
     return width, height
 
 
-def exposure_of(options: dict) -> Optional[float]:
+def exposure_of(options: Dict[Any, Any]) -> Optional[float]:
     """The factor that exposure or ev says; None: neither."""
     exposure, ev = options.get("exposure"), options.get("ev")
     if exposure is not None and ev is not None:
@@ -89,13 +89,13 @@ def exposure_of(options: dict) -> Optional[float]:
     if ev is not None:
         if not -64 <= real(ev, "ev") <= 64:
             raise UsageError(f"ev: expected -64 to 64, found {ev!r}")
-        return 2.0 ** ctypes.c_float(ev).value
+        return float(2.0 ** ctypes.c_float(ev).value)
     if exposure is not None and not 0 < real(exposure, "exposure") < math.inf:
         raise UsageError(f"exposure: expected a factor above 0, found {exposure!r}")
     return exposure
 
 
-def request_of(scene, size: Optional[Tuple[int, int]], options: dict) -> Request:
+def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, Any]) -> Request:
     struct, given = _c.make("picture_request"), options.get("camera")
     whole_scene = [name for name in WHOLE_SCENE if options.get(name) is not None]
     struct.frame = bool(whole_scene) or (isinstance(given, str) and given == "frame")
@@ -123,7 +123,7 @@ def request_of(scene, size: Optional[Tuple[int, int]], options: dict) -> Request
     return Request(struct, camera, scene_camera)
 
 
-def light_of(scene, options: dict, struct) -> None:
+def light_of(scene: Any, options: Dict[Any, Any], struct: Any) -> None:
     """Writes the keywords of the light that is chosen."""
     # Lights that the caller adds get a share of the studio, as those of the program's --light.
     studio = "under_lights" if scene._own_lights else "for_dark"
@@ -141,14 +141,14 @@ def light_of(scene, options: dict, struct) -> None:
     struct.studio_turn_rad = 0.0 if turn is None else math.radians(real(turn, "studio_turn"))
 
 
-def given_camera(given) -> Camera:
+def given_camera(given: Any) -> Camera:
     """A camera that a caller gives, checked."""
     camera = given if isinstance(given, Camera) else Camera(given)
     camera._check()
     return camera
 
 
-def set_up(scene, request: Request) -> Setup:
+def set_up(scene: Any, request: Request) -> Setup:
     """Calls halflit_choose_picture."""
     camera, settings, size = Camera(), _c.make("settings"), (ctypes.c_int32 * 2)()
     scene._check_open()
@@ -158,7 +158,7 @@ def set_up(scene, request: Request) -> Setup:
     return Setup(scene._world.out(camera), settings, lighting, (size[0], size[1]))
 
 
-def choose(scene, size, options: dict) -> Setup:
+def choose(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:
     """The setup for the keywords: that of the last frame if nothing has changed."""
     scene._check_open()
     size = None if size is None else checked_size(size)
@@ -168,10 +168,11 @@ def choose(scene, size, options: dict) -> Setup:
     key = (scene._changes, *request.key)
     if scene._chosen is None or scene._chosen[1] != key:
         scene._chosen = set_up(scene, request), key
-    return scene._chosen[0]
+    found: Setup = scene._chosen[0]
+    return found
 
 
-def kept(scene, size, options: dict) -> Setup:
+def kept(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:
     """The setup that the caller keeps."""
     scene._check_open()
     setup = options["setup"]

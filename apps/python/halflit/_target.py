@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Dict, Tuple
+from typing import Any, Dict, Tuple
 
 import numpy as np
 
@@ -10,13 +10,14 @@ from . import _c
 from ._errors import UsageError
 from ._options import AOVS, DERIVED, PLANES
 from ._picture import Picture
+from ._types import Array
 from ._values import shown, sized, truth
 
 
 class Target:
     """A halflit_target, and the arrays that it points to. The region that is asked for is written into the settings."""
 
-    def __init__(self, size: Tuple[int, int], settings, options: dict):
+    def __init__(self, size: Tuple[int, int], settings: Any, options: Dict[Any, Any]) -> None:
         self.struct = _c.make("target")
         self.struct.width, self.struct.height = size
         width, height = region_of(size, options, settings, self.struct)
@@ -32,7 +33,7 @@ class Target:
         for name, plane in self.planes.items():
             setattr(self.struct, PLANES[name][0], plane.ctypes.data)
 
-    def derive(self, scene, camera, region) -> Dict[str, np.ndarray]:
+    def derive(self, scene: Any, camera: Any, region: Any) -> Dict[str, Array]:
         """The planes that are asked for, of those that were drawn. Everything is in the file's world."""
         found = {}
         for name in self.asked:
@@ -52,7 +53,7 @@ class Target:
         return found
 
 
-def part_numbers(scene) -> np.ndarray:
+def part_numbers(scene: Any) -> np.ndarray[Any, Any]:
     """The part of each instance, by its index plus 1."""
     counts = scene.counts
     numbers = np.arange(counts["instances"] + 1, dtype=np.uint32)
@@ -64,7 +65,7 @@ def part_numbers(scene) -> np.ndarray:
     return numbers
 
 
-def region_of(size: tuple, options: dict, settings, target) -> tuple:
+def region_of(size: Tuple[Any, ...], options: Dict[Any, Any], settings: Any, target: Any) -> Tuple[Any, ...]:
     """Width and height of what is drawn."""
     if options.get("region") is None:
         return size
@@ -80,7 +81,7 @@ def region_of(size: tuple, options: dict, settings, target) -> tuple:
     return width, height
 
 
-def pixels_of(shape: tuple, options: dict) -> np.ndarray:
+def pixels_of(shape: Tuple[Any, ...], options: Dict[Any, Any]) -> Array:
     """The array to draw into: that of the caller, or a new one."""
     asked, out = options.get("dtype"), options.get("out")
     if out is not None and not isinstance(out, np.ndarray):
@@ -96,28 +97,29 @@ def pixels_of(shape: tuple, options: dict) -> np.ndarray:
         return np.empty(shape, dtype)
     if out.shape != shape:
         raise UsageError(f"out: expected an array of shape {shape}, found {out.shape}")
-    if out.strides[1:] != (4 * dtype.itemsize, dtype.itemsize) or out.strides[0] < shape[1] * 4 * dtype.itemsize:
+    item = out.itemsize
+    if out.strides[1:] != (4 * item, item) or out.strides[0] < shape[1] * 4 * item:
         raise UsageError("out: expected pixels without gaps, rows one after another")
-    if not out.flags.writeable or out.ctypes.data % dtype.itemsize:
+    if not out.flags.writeable or out.ctypes.data % item:
         raise UsageError("out: expected memory that is writeable and aligned")
     return out
 
 
-def names_of(options: dict) -> Tuple[str, ...]:
+def names_of(options: Dict[Any, Any]) -> Tuple[str, ...]:
     """Names of the planes that are asked for, each once."""
     asked = options.get("aovs")
     if asked is None:
         return ()
     if isinstance(asked, str):
         asked = AOVS if asked == "all" else (asked,)
-    asked = tuple(asked) if hasattr(asked, "__iter__") else (asked,)
-    for name in asked:
+    listed: Tuple[Any, ...] = tuple(asked) if hasattr(asked, "__iter__") else (asked,)
+    for name in listed:
         if not isinstance(name, str) or name not in AOVS:
             raise UsageError(f"aovs: expected names of {', '.join(AOVS)}, found {shown(name)}")
-    return tuple(dict.fromkeys(asked))
+    return tuple(dict.fromkeys(listed))
 
 
-def planes_of(shape: tuple, asked: Tuple[str, ...]) -> Dict[str, np.ndarray]:
+def planes_of(shape: Tuple[Any, ...], asked: Tuple[str, ...]) -> Dict[str, Array]:
     """New arrays for the planes that are drawn: those that are asked for, or that these are made of."""
     planes = {}
     for name in dict.fromkeys(DERIVED.get(name, name) for name in asked):

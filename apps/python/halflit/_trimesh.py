@@ -1,26 +1,31 @@
 """Meshes of the library trimesh, which need not be installed: only what the objects offer is used. This module imports numpy."""
 from __future__ import annotations
 
-from typing import Any, Dict, Optional
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
 
 import numpy as np
 
 from ._color import linear_from_codes
 from ._errors import UsageError
+from ._material import Material
+
+if TYPE_CHECKING:
+    from ._scene import Scene
+from ._types import Array
 
 #: Diffuse colour of a SimpleMaterial that was given none: trimesh's DEFAULT_COLOR. It would darken a texture.
 _NO_DIFFUSE = [102, 102, 102, 255]
 
 
-def is_trimesh(value) -> bool:
+def is_trimesh(value: Any) -> bool:
     """A Trimesh, PointCloud or Scene of trimesh."""
     return any(kind.__module__.partition(".")[0] == "trimesh" for kind in type(value).__mro__)
 
 
-def add(scene, value) -> None:
+def add(scene: Scene, value: Any) -> None:
     """Adds all that the object has to the scene."""
     if hasattr(value, "geometry") and hasattr(value, "graph"):
-        meshes: dict = {}
+        meshes: Dict[Any, Any] = {}
         for node in value.graph.nodes_geometry:
             matrix, name = value.graph[node]
             if name not in meshes:
@@ -34,7 +39,7 @@ def add(scene, value) -> None:
     scene.add_instance(mesh)
 
 
-def add_geometry(scene, mesh, name) -> Optional[int]:
+def add_geometry(scene: Scene, mesh: Any, name: Any) -> Optional[int]:
     """The index of the mesh; None for what has no triangles and no points."""
     if not hasattr(mesh, "faces"):
         if not hasattr(mesh, "vertices") or hasattr(mesh, "entities"):
@@ -56,11 +61,12 @@ def add_geometry(scene, mesh, name) -> Optional[int]:
         vertices, normals = np.asarray(vertices)[corners], None if normals is None else np.asarray(normals)[corners]
         colors = np.repeat(np.asarray(visual.face_colors, dtype=np.uint8), 3, axis=0)
         faces = None
-    material = material_of(scene, getattr(visual, "material", None))
+    members = material_of(scene, getattr(visual, "material", None))
+    material = None if members is None else Material(**members)
     return scene.add_mesh(vertices, faces, normals=normals, uv=uv, colors=colors, material=material, name=name, place=False)
 
 
-def shaded(mesh) -> tuple:
+def shaded(mesh: Any) -> Tuple[Any, ...]:
     """The mesh, and whether its vertex_normals are to be used.
 
     Those that came with it are in its cache, which is how trimesh's exporters know them. Of another mesh trimesh would make means over all
@@ -74,7 +80,7 @@ def shaded(mesh) -> tuple:
         return mesh, False
 
 
-def material_of(scene, material) -> Optional[Dict[str, Any]]:
+def material_of(scene: Scene, material: Any) -> Optional[Dict[str, Any]]:
     """The members of a halflit material for a PBRMaterial or SimpleMaterial of trimesh; None: that of a mesh without one."""
     if material is None:
         return None
@@ -90,7 +96,7 @@ def material_of(scene, material) -> Optional[Dict[str, Any]]:
                 members[member] = getattr(material, name)
         if getattr(material, "alphaMode", None):
             members["alpha_mode"] = material.alphaMode.lower()
-        pictures: tuple = (
+        pictures: Tuple[Any, ...] = (
             ("base_color_texture", "baseColorTexture", "srgb"),
             ("metallic_roughness_texture", "metallicRoughnessTexture", "linear"),
             ("normal_texture", "normalTexture", "normal"),
@@ -111,7 +117,7 @@ def material_of(scene, material) -> Optional[Dict[str, Any]]:
     return members
 
 
-def shares(color) -> np.ndarray:
+def shares(color: Any) -> Array:
     """Bytes as shares of 255; floats stay."""
     array = np.asarray(color)
     return array / 255.0 if array.dtype.kind in "iu" else array

@@ -1,18 +1,19 @@
 """Numbers of a caller. What is none is refused by the argument's name; nothing is cut off or guessed."""
 from __future__ import annotations
 
+from typing import Any, List, Tuple
 import operator
 
 from ._errors import UsageError
 
 
-def shown(value) -> str:
+def shown(value: Any) -> str:
     """The value in a message: one short line."""
     text = " ".join(repr(value).split())
     return text if len(text) <= 80 else text[:77] + "..."
 
 
-def whole(value, name: str, low: int, high: int) -> int:
+def whole(value: Any, name: str, low: int, high: int) -> int:
     """A whole number in [low, high]. A float is none, even if it is 2.0."""
     try:
         number = operator.index(value)
@@ -23,7 +24,7 @@ def whole(value, name: str, low: int, high: int) -> int:
     return number
 
 
-def real(value, name: str) -> float:
+def real(value: Any, name: str) -> float:
     """A number. A text is none, even if it reads as one."""
     if not isinstance(value, (str, bytes)):
         try:
@@ -33,7 +34,7 @@ def real(value, name: str) -> float:
     raise UsageError(f"{name}: expected a number, found {shown(value)}")
 
 
-def truth(value, name: str) -> bool:
+def truth(value: Any, name: str) -> bool:
     """True or False; 0 and 1 will do."""
     if hasattr(value, "item") and not getattr(value, "ndim", 0):  # a scalar of numpy
         value = value.item()
@@ -42,7 +43,7 @@ def truth(value, name: str) -> bool:
     raise UsageError(f"{name}: expected True or False, found {shown(value)}")
 
 
-def reals(value, count: int, name: str) -> list:
+def reals(value: Any, count: int, name: str) -> List[Any]:
     """As many numbers as `count`."""
     try:
         numbers = [] if isinstance(value, (str, bytes)) else [real(x, name) for x in value]
@@ -53,7 +54,7 @@ def reals(value, count: int, name: str) -> list:
     return numbers
 
 
-def sized(value, name: str) -> tuple:
+def sized(value: Any, name: str) -> Tuple[Any, ...]:
     """Whole numbers of an iterable, such as a size or a region."""
     try:
         if isinstance(value, (str, bytes)):

@@ -13,15 +13,15 @@ from ._values import real, shown, truth
 USUAL_SIZE = (1280, 720)
 
 
-def margins(fit, size: Optional[Tuple[int, int]]) -> Tuple[float, float]:
+def margins(fit: Any, size: Optional[Tuple[int, int]]) -> Tuple[float, float]:
     """Shares of half the picture that `fit` pixels are."""
     width, height = size or USUAL_SIZE
     if not 0 <= real(fit, "fit") < 1e6:
         raise UsageError(f"fit: expected a margin in pixels, found {shown(fit)}")
-    return tuple(min(2 * fit / side, 0.9) for side in (width, height))
+    return min(2 * fit / width, 0.9), min(2 * fit / height, 0.9)
 
 
-def view_struct(scene, view, size: Optional[Tuple[int, int]], options: Dict[str, Any]):
+def view_struct(scene: Any, view: Any, size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> Any:
     """A halflit_view: its angles by a name or by (azimuth, elevation), the rest by the keywords zoom, fov, orthographic and fit."""
     struct = _c.make("view")
     if isinstance(view, str):
@@ -42,11 +42,12 @@ def view_struct(scene, view, size: Optional[Tuple[int, int]], options: Dict[str,
     return struct
 
 
-def drawn_views(scene, views: Sequence[Any], size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> List[Camera]:
+def drawn_views(scene: Any, views: Sequence[Any], size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> List[Camera]:
     """Cameras of the world that is drawn, of one distance and scale."""
     width, height = size or USUAL_SIZE
     structs = [view_struct(scene, view, size, options) for view in views]
-    given, made = (type(structs[0]) * len(structs))(*structs), (_c.STRUCT["halflit_camera"] * len(structs))()
+    view_type: Any = type(structs[0])
+    given, made = (view_type * len(structs))(*structs), (_c.STRUCT["halflit_camera"] * len(structs))()
     for camera in made:
         _c.call("camera_init", ctypes.byref(camera), ctypes.sizeof(camera))
     scene._call("camera_views", ctypes.c_float(width / height).value, given, len(structs), made)

@@ -1,15 +1,22 @@
 """The file's own world, in which callers give and are given everything, and the world that is drawn."""
 from __future__ import annotations
 
-from typing import Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Sequence, Tuple, TypeVar
 
 from ._lazy import np
+from ._types import Array
+
+if TYPE_CHECKING:
+    from ._camera import Camera
+    from ._light import Light
+
+R = TypeVar("R", "Camera", "Light")
 
 
 class World:
     """A point p of the file is drawn at (p - origin) * scale. Scenes that are made of arrays have origin 0 and scale 1."""
 
-    def __init__(self, origin: Sequence[float] = (0.0, 0.0, 0.0), scale: float = 1.0):
+    def __init__(self, origin: Sequence[float] = (0.0, 0.0, 0.0), scale: float = 1.0) -> None:
         self.origin: Tuple[float, ...] = tuple(origin)
         self.scale = scale
         self.is_drawn = scale == 1.0 and not any(origin)  # both worlds are the same
@@ -19,23 +26,24 @@ class World:
 
     __hash__ = None  # type: ignore[assignment]
 
-    def point_in(self, point) -> list:
+    def point_in(self, point: Any) -> List[Any]:
         """Where a point of the file is drawn."""
         return [(x - start) * self.scale for x, start in zip(point, self.origin)]
 
-    def point_out(self, point) -> list:
+    def point_out(self, point: Any) -> List[Any]:
         """The point of the file that is drawn here."""
         return [x / self.scale + start for x, start in zip(point, self.origin)]
 
-    def into(self, record):
+    def into(self, record: R) -> R:
         """A camera or a light, which is given in the file's world, in the world that is drawn."""
         if self.is_drawn:
             return record._copied()
         if record._drawn is not None and record._drawn[0] == self:
-            return record._drawn[1]._copied()
+            drawn: R = record._drawn[1]._copied()
+            return drawn
         return record._moved(self.point_in, self.scale)
 
-    def out(self, record):
+    def out(self, record: R) -> R:
         """A camera or a light of the world that is drawn, in the file's world. Unless it is changed, into() gives the same bits again."""
         if self.is_drawn:
             return record._copied()
@@ -43,21 +51,21 @@ class World:
         object.__setattr__(given, "_drawn", (self, record))
         return given
 
-    def matrix_in(self, matrix: np.ndarray) -> np.ndarray:
+    def matrix_in(self, matrix: Array) -> Array:
         """world_from_object, float64 (4, 4) or (n, 4, 4), for the world that is drawn."""
         placed = matrix.copy()
         placed[..., :3, :3] *= self.scale
         placed[..., :3, 3] = (matrix[..., :3, 3] - self.origin) * self.scale
         return placed
 
-    def matrix_out(self, matrix: np.ndarray) -> np.ndarray:
+    def matrix_out(self, matrix: Array) -> Array:
         """The reverse of matrix_in()."""
         placed = matrix.copy()
         placed[:3, :3] /= self.scale
         placed[:3, 3] = self.point_out(matrix[:3, 3])
         return placed
 
-    def planes_out(self, planes: dict) -> None:
+    def planes_out(self, planes: Dict[Any, Any]) -> None:
         """Depths and positions of a frame, in place."""
         if self.is_drawn:
             return
