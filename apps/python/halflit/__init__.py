@@ -18,7 +18,7 @@ from ._light import Light
 from ._material import Lobe, Material, TextureUse
 from ._options import AOVS
 from ._picture_options import PictureOptions
-from ._render import render
+from ._render import render, render_meshes
 from ._scene import Scene
 from ._setup import Setup
 
@@ -45,6 +45,7 @@ __all__ = [
     "UsageError",
     "pixel_epoch",
     "render",
+    "render_meshes",
     "version",
 ]
 

@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Iterable, Optional, Union
+from typing import Any, Dict, Iterable, Iterator, Optional, Union
 
 from ._errors import UsageError
+from ._geometry import MaterialOf
 from ._lazy import np  # noqa: F401  (in annotations)
 from ._lazy_picture import pictures  # noqa: F401  (in annotations)
 from ._light import Light
@@ -66,6 +67,22 @@ def render(
         for light in added:
             drawn.add_light(Light._from(light, "lights"))
         return drawn.render(size, **options)
+
+
+def render_meshes(
+    meshes: Iterable[Any], size: Size = 128, *, material: MaterialOf = None, **options: Unpack[PictureOptions]
+) -> Iterator[pictures.Picture]:
+    """Draws many small meshes, each alone in its picture: an iterator of the pictures of render((vertices, faces), size), in order.
+
+    meshes: each (vertices, faces), or a dict of arguments of Scene.add_mesh() such as {"vertices": v, "faces": f, "colors": c}; they are
+    read as pictures are asked for, some ahead. material: of all meshes. threads: that draw, each one a picture; 0: one for each core.
+    The other keywords are those of Scene.render() but for camera, setup and out.
+
+    Light, environment and shadow maps are kept from mesh to mesh, which render() would make anew for each.
+    """
+    from ._batch import draw_meshes
+
+    return draw_meshes(meshes, size, material, dict(options))
 
 
 def refuse(keywords: Dict[str, Any], of: str) -> None:

@@ -15,7 +15,7 @@ from ._lighting import Lighting
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
 from ._types import Array, Size, Unpack
-from ._values import real, truth, up_axis
+from ._values import real, truth, up_axis, whole
 from ._world import World
 
 #: Members of halflit_load_options that are truths, and those that have a keyword of their own.
@@ -204,9 +204,11 @@ class Scene(Geometry, Lighting):
             return draw(self, size, dict(options))
 
     def render_batch(
-        self, cameras: Iterable[Any], size: Size = None, *, light: str = "fixed", **options: Unpack[PictureOptions]
+        self, cameras: Iterable[Any], size: Size = None, *, light: str = "fixed", ahead: int = 0, **options: Unpack[PictureOptions]
     ) -> Iterator[pictures.Picture]:
         """Draws the scene by many cameras: an iterator of pictures, each drawn when it is asked for.
+
+        ahead: number of pictures that a thread draws while the caller uses the last one; leave the scene alone meanwhile.
 
         cameras: each a Camera, its matrix, a camera of the file, or (azimuth, elevation) in degrees. light: "fixed": exposure and the light
         that is chosen are those of the first camera, so that a surface looks the same in all pictures; "viewer": the studio turns with
@@ -218,7 +220,24 @@ class Scene(Geometry, Lighting):
         """
         from ._frame import draw_batch
 
-        return draw_batch(self, list(cameras), size, light, dict(options))
+        drawn = draw_batch(self, list(cameras), size, light, dict(options))
+        if whole(ahead, "ahead", 0, 1000) == 0:
+            return drawn
+        from ._batch import drawn_ahead
+
+        return drawn_ahead(drawn, ahead)
+
+    def render_arrays(
+        self, cameras: Iterable[Any], size: Size = None, *, light: str = "fixed", **options: Unpack[PictureOptions]
+    ) -> Dict[str, Array]:
+        """The pictures of render_batch() in one array for each plane: "color", (n, height, width, 4), and those that `aovs` names.
+
+            data = scene.render_arrays([(azimuth, 20) for azimuth in range(0, 360, 5)], 128, samples=1, aovs=["depth", "id"])
+            data["depth"].shape  # (72, 128, 128)
+        """
+        from ._batch import draw_arrays
+
+        return draw_arrays(self, list(cameras), size, light, dict(options))
 
     def render_views(self, views: Sequence[Any], size: Size = None, *, light: str = "viewer", **options: Unpack[PictureOptions]) -> Dict[Any, pictures.Picture]:
         """Pictures of several sides that can be compared, by one distance and one scale, as `halflit render --view`: a dict of pictures by

@@ -1,0 +1,103 @@
+"""Many pictures at once are those that are drawn one by one."""
+import threading
+import unittest
+
+import numpy as np
+
+import halflit
+from support import CORNERS, FACES
+
+VIEWS = [(30 * i, 10 + i) for i in range(6)]
+
+
+def meshes(count):
+    random = np.random.default_rng(3)
+    return [((CORNERS * random.uniform(0.1, 9, 3) + random.uniform(-2, 2, 3)).astype(np.float32), FACES) for _ in range(count)]
+
+
+class Batches(unittest.TestCase):
+    def test_pictures_that_are_drawn_ahead_are_the_same(self):
+        scene = halflit.Scene.demo()
+        expected = [picture.pixel_hash for picture in scene.render_batch(VIEWS, 48)]
+        for ahead in (1, 3, 20):
+            self.assertEqual([picture.pixel_hash for picture in scene.render_batch(VIEWS, 48, ahead=ahead)], expected)
+
+    def test_the_next_picture_is_drawn_while_the_last_is_used(self):
+        begun = threading.Event()
+        batch = halflit.Scene.demo().render_batch(VIEWS, 48, ahead=1, progress=lambda share: begun.set())
+        next(batch)
+        begun.wait(60)
+        begun.clear()
+        next(batch)
+        self.assertTrue(begun.wait(60))  # nobody has asked for the third
+        batch.close()
+
+    def test_an_error_is_raised_and_the_rest_is_not_drawn(self):
+        shares = []
+        batch = halflit.Scene.demo().render_batch([(0, 20), np.zeros((4, 4)), (90, 20)], 32, ahead=2, progress=shares.append)
+        self.assertEqual(next(batch).shape, (32, 32, 4))
+        with self.assertRaisesRegex(halflit.UsageError, "matrix"):
+            next(batch)
+        self.assertEqual(shares.count(1.0), 1)
+
+    def test_arrays_are_the_pictures(self):
+        scene = halflit.Scene.demo()
+        names = ["depth", "id", "view_normal", "ray"]
+        arrays = scene.render_arrays(VIEWS, (40, 30), aovs=names, dtype=np.float32)
+        self.assertEqual({name: array.shape for name, array in arrays.items()},
+                         {"color": (6, 30, 40, 4), "depth": (6, 30, 40), "id": (6, 30, 40), "view_normal": (6, 30, 40, 3),
+                          "ray": (6, 30, 40)})  # fmt: skip
+        for i, picture in enumerate(scene.render_batch(VIEWS, (40, 30), aovs=names, dtype=np.float32)):
+            self.assertTrue(np.array_equal(arrays["color"][i], picture))
+            for name in names:
+                self.assertTrue(np.array_equal(arrays[name][i], picture.aovs[name]), name)
+        with self.assertRaisesRegex(halflit.UsageError, "one or more"):
+            scene.render_arrays([], 8)
+
+
+class Meshes(unittest.TestCase):
+    def test_the_pictures_of_many_meshes_are_those_of_each(self):
+        given = meshes(30)
+        for options in ({}, {"azimuth": 70, "zoom": 0.8}, {"view": "top", "orthographic": True}, {"samples": 1, "exposure": 0.5}):
+            expected = [halflit.render(mesh, (40, 30), **options).pixel_hash for mesh in given]
+            for threads in (0, 1, 3):
+                drawn = halflit.render_meshes(iter(given), (40, 30), threads=threads, **options)
+                self.assertEqual([picture.pixel_hash for picture in drawn], expected)
+        self.assertGreater(len(set(expected)), 25)
+
+    def test_meshes_have_colours_and_a_material(self):
+        colors = np.linspace(0, 255, 24).reshape(8, 3).astype(np.uint8)
+        given = [{"vertices": vertices, "faces": faces, "colors": colors} for vertices, faces in meshes(5)]
+        drawn = list(halflit.render_meshes(given, 32, material={"unlit": True}, aovs=["id"]))
+        for mesh, picture in zip(given, drawn):
+            scene = halflit.Scene()
+            scene.add_mesh(**mesh, material={"unlit": True})
+            self.assertEqual(picture.pixel_hash, scene.render(32).pixel_hash)
+            self.assertEqual(set(np.unique(picture.aovs["id"])), {0, 1})
+
+    def test_meshes_are_read_as_pictures_are_asked_for(self):
+        read = []
+
+        def source():
+            for mesh in meshes(100):
+                read.append(1)
+                yield mesh
+
+        drawn = halflit.render_meshes(source(), 16, threads=2)
+        self.assertEqual(len(read), 0)
+        next(drawn)
+        self.assertLess(len(read), 20)
+        drawn.close()
+
+    def test_a_wrong_mesh_is_refused(self):
+        drawn = halflit.render_meshes([*meshes(2), (CORNERS, FACES + 8)], 16, threads=1)
+        self.assertEqual(next(drawn).shape, (16, 16, 4))
+        next(drawn)
+        with self.assertRaisesRegex(halflit.UsageError, "faces: vertex 15"):
+            next(drawn)
+        with self.assertRaisesRegex(TypeError, "no keyword 'camera'"):
+            halflit.render_meshes([], 16, camera=np.eye(4))
+
+
+if __name__ == "__main__":
+    unittest.main()
