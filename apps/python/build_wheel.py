@@ -131,11 +131,13 @@ def licences(libraries):
 def make(library, folder):
     """Writes the wheel into the folder and returns its name."""
     files = {}
-    package = os.path.join(HERE, "halflit")
-    for name in sorted(os.listdir(package)):
-        if name.endswith((".py", ".pyi", ".typed")):
-            with open(os.path.join(package, name), "rb") as file:
-                files["halflit/" + name] = file.read()
+    for folder_of, folders, names in os.walk(os.path.join(HERE, "halflit")):
+        folders.sort()
+        for name in sorted(names):
+            if name.endswith((".py", ".pyi", ".typed")):
+                path = os.path.join(folder_of, name)
+                with open(path, "rb") as file:
+                    files[os.path.relpath(path, HERE)] = file.read()
     with tempfile.TemporaryDirectory() as scratch:
         paths, libraries = bundle(library, scratch)
         tag = "py3-none-" + platform_tag(paths)

@@ -72,6 +72,7 @@ class Wheel(unittest.TestCase):
             self.assertIn("Requires-Dist: numpy", archive.read(info + "/METADATA").decode())
             self.assertEqual(archive.read(info + "/RECORD").decode().count("\n"), len(names))
         self.assertIn("halflit/py.typed", names)
+        self.assertIn("halflit/compat/pyrender/__init__.py", names)
         self.assertIn(info + "/licenses/LICENSE", names)
         self.assertRegex(self.name, r"^halflit-[0-9.]+-py3-none-(manylinux_2_\d+|linux)_\w+\.whl$")
 
