@@ -1,10 +1,21 @@
 """Meshes of trimesh. Without it, objects of the same shapes and number types stand in for them."""
+import io
+import sys
+import types
 import unittest
+import unittest.mock
 
 import numpy as np
 
 import halflit
-from support import CORNERS, FACES
+import halflit.trimesh
+import stand_ins
+from support import CORNERS, FACES, moved
+
+try:
+    from PIL import Image
+except ImportError:
+    Image = None
 
 try:
     import trimesh
@@ -183,6 +194,94 @@ class OfTrimesh(unittest.TestCase):
         for model in (mesh, again, file):
             picture = halflit.render(model, 64).astype(int)
             self.assertGreater(picture[32, 32, 0], picture[32, 32, 2] + 50)
+
+
+class Camera(Part):
+    """A camera of trimesh: a width and a height in pixels, and two angles in degrees."""
+
+    def __init__(self):
+        super().__init__(resolution=np.array([48, 36]), fov=np.array([60.0, 45.0]), z_near=0.01, z_far=1000.0)
+
+
+class PointLight(Part):
+    pass
+
+
+def viewed(lights=None, **mesh):
+    """A trimesh.Scene of a cube that its camera sees from z = 5."""
+    made = Scene()
+    made.__dict__.update(vars(stand_ins.scene((colored(**mesh), np.eye(4)))))
+    made.camera, made.camera_transform, made._lights = Camera(), moved(0, 0, 5), lights
+    return made
+
+
+class Scene(Part):
+    __module__ = "trimesh.scene.scene"
+
+    def save_image(self, resolution=None, **options):
+        return b"a window"
+
+
+@unittest.skipUnless(Image, "no PIL")
+class SaveImage(unittest.TestCase):
+    def setUp(self):
+        patch = unittest.mock.patch.dict(sys.modules, trimesh=types.SimpleNamespace(Scene=Scene))
+        patch.start()
+        self.addCleanup(patch.stop)
+        self.addCleanup(halflit.trimesh.unregister)
+
+    def pixels(self, scene, **options):
+        png = scene.save_image(**options)
+        self.assertIsInstance(png, bytes)
+        return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))
+
+    def test_scenes_are_drawn_until_unregister(self):
+        original = Scene.save_image
+        for _ in range(2):
+            halflit.trimesh.register()
+        pixels = self.pixels(viewed(), resolution=(40, 30), visible=False)
+        self.assertEqual((pixels.shape, pixels.dtype), ((30, 40, 4), np.uint8))
+        # The cube's front, 2 wide, is 4 away: 15 / (4 tan 22.5 degrees) pixels from the middle to its rim.
+        rim = 15 / (4 * np.tan(np.radians(22.5)))
+        shown = (pixels != 255).any(axis=2)
+        self.assertEqual(shown.any(axis=0).sum(), 2 * round(rim))
+        self.assertTrue(shown[15, 20] and not shown[2].any())
+        halflit.trimesh.unregister()
+        halflit.trimesh.unregister()
+        self.assertIs(Scene.save_image, original)
+        self.assertEqual(viewed().save_image(), b"a window")
+
+    def test_resolution_and_background(self):
+        halflit.trimesh.register()
+        scene = viewed()
+        self.assertEqual(self.pixels(scene).shape, (36, 48, 4))
+        self.assertEqual(self.pixels(scene, resolution=[20, 10]).shape, (10, 20, 4))
+        self.assertEqual(list(scene.camera.resolution), [20, 10])  # as trimesh does
+        for background, codes in (([10, 20, 30, 255], (10, 20, 30, 255)), ([0.0, 0.2, 1.0], (0, 51, 255, 255))):
+            self.assertEqual(tuple(self.pixels(scene, background=background)[0, 0]), codes)
+        self.assertEqual(self.pixels(scene, background=[0, 0, 0, 0])[0, 0, 3], 0)
+        with self.assertRaisesRegex(TypeError, "backgruond"):
+            scene.save_image(backgruond=3)
+        with self.assertRaisesRegex(halflit.UsageError, "background"):
+            scene.save_image(background="red")
+
+    def test_lights_of_the_scene_shine_from_where_they_are(self):
+        halflit.trimesh.register()
+        colors = dict(kind="vertex", vertex_colors=np.full((8, 4), 255, np.uint8))
+        plain = self.pixels(viewed(**colors)).astype(int)
+        scene = viewed([PointLight(name="lamp", color=np.array([255, 0, 0, 255], np.uint8))], **colors)
+        scene.graph.nodes["lamp"] = (moved(0, 0, 5), None)
+        red = self.pixels(scene).astype(int)
+        self.assertLess(np.ptp(plain[18, 24, :3]), 20)
+        self.assertGreater(red[18, 24, 0], red[18, 24, 1] + 20)
+
+    @unittest.skipUnless(trimesh, "no trimesh")
+    def test_the_real_one(self):
+        with unittest.mock.patch.dict(sys.modules, trimesh=trimesh):
+            halflit.trimesh.register()
+            scene = trimesh.Scene(trimesh.creation.box())
+            self.assertEqual(self.pixels(scene, resolution=(32, 24)).shape, (24, 32, 4))
+            halflit.trimesh.unregister()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,106 @@
+"""trimesh.Scene.save_image() without a window.
+
+    import trimesh
+    import halflit.trimesh
+
+    halflit.trimesh.register()
+    png = trimesh.load("model.glb", force="scene").save_image(resolution=(640, 480))
+
+register() lets the scenes of trimesh be drawn by halflit, unregister() lets them be drawn by trimesh's viewer again. save_image() here
+draws one scene.
+"""
+from __future__ import annotations
+
+import importlib
+import math
+from typing import Any, Dict, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._camera import Camera
+from ._errors import UsageError
+from ._scene import Scene
+from ._trimesh import add
+
+#: Keywords of trimesh's viewer that decide nothing in a picture without a window.
+_OF_WINDOWS = frozenset(
+    "visible smooth flags start_loop callback callback_period caption fixed offset_lines line_settings window_conf profile record"
+    " fullscreen resizable vsync display screen style".split()
+)
+#: What save_image() of trimesh.Scene was before register().
+_original: Any = None
+
+
+def register() -> None:
+    """Draws the scenes of trimesh by halflit: trimesh.Scene.save_image() is save_image() here. A second call changes nothing."""
+    global _original
+    kind = importlib.import_module("trimesh").Scene
+    if _original is None:
+        _original = kind.save_image
+        kind.save_image = save_image
+
+
+def unregister() -> None:
+    """Undoes register()."""
+    global _original
+    if _original is not None:
+        importlib.import_module("trimesh").Scene.save_image = _original
+        _original = None
+
+
+def save_image(scene: Any, resolution: Any = None, background: Any = None, **options: Any) -> bytes:
+    """A picture of a trimesh.Scene by its camera, as the bytes of a PNG, which has alpha if not all pixels are opaque.
+
+    resolution: width and height in pixels, which become those of scene.camera, as in trimesh; None: those of scene.camera. background:
+    (3,) or (4,), bytes or floats (white). Lights that were set as scene.lights shine from where they are, as bright at any distance, as in
+    trimesh's viewer; without them light is chosen as in halflit.render(). Other keywords of trimesh's viewer, such as visible, are taken
+    and decide nothing.
+    """
+    unknown = [name for name in options if name not in _OF_WINDOWS]
+    if unknown:
+        raise TypeError(f"save_image() has no keyword {unknown[0]!r}")
+    if resolution is not None:
+        scene.camera.resolution = resolution
+    size = tuple(int(side) for side in scene.camera.resolution)
+    made = Scene()
+    add(made, scene)
+    _add_lights(made, scene)
+    pixels = made.render((size[0], size[1]), camera=_camera(scene), background=_codes(background))
+    return pixels.to_png()
+
+
+def _camera(scene: Any) -> Camera:
+    given = scene.camera
+    members: Dict[str, float] = {}
+    for member, name in (("near_z", "z_near"), ("far_z", "z_far")):
+        if getattr(given, name, None) is not None:
+            members[member] = float(getattr(given, name))
+    return Camera(np.asarray(scene.camera_transform, np.float64), fov_y_rad=math.radians(float(given.fov[1])), **members)
+
+
+def _codes(background: Any) -> npt.NDArray[np.uint8]:
+    """sRGB codes and alpha of a background."""
+    if background is None:
+        return np.full(4, 255, np.uint8)
+    array = np.asarray(background)
+    if array.shape not in ((3,), (4,)) or array.dtype.kind not in "fiu":
+        raise UsageError(f"background: expected 3 or 4 numbers, found {background!r}")
+    shown = np.clip(np.rint(array * 255.0 if array.dtype.kind == "f" else array), 0, 255)
+    codes: npt.NDArray[np.uint8] = shown.astype(np.uint8)
+    return codes if len(codes) == 4 else np.append(codes, np.uint8(255))
+
+
+def _add_lights(made: Scene, scene: Any) -> None:
+    given: Optional[Any] = getattr(scene, "_lights", None)  # scene.lights would make some
+    bounds = made.bounds
+    if not given or bounds is None:
+        return
+    centre = bounds.mean(axis=0)
+    for light in given:
+        matrix = np.asarray(scene.graph[light.name][0], np.float64)
+        color = np.asarray(light.color)
+        shares = (color / 255.0 if color.dtype.kind in "iu" else color)[:3]
+        way = -matrix[:3, 2] if "Directional" in type(light).__name__ else centre - matrix[:3, 3]
+        if np.linalg.norm(way) > 0:
+            made.add_light("directional", color=shares.tolist(), direction=way.tolist())
