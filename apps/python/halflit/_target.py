@@ -53,7 +53,7 @@ class Target:
         return found
 
 
-def part_numbers(scene: Any) -> np.ndarray[Any, Any]:
+def part_numbers(scene: Any) -> Array:
     """The part of each instance, by its index plus 1."""
     counts = scene.counts
     numbers = np.arange(counts["instances"] + 1, dtype=np.uint32)
