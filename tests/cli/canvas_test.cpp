@@ -223,11 +223,11 @@ TEST_CASE("marks: round lengths are the largest of 1, 2, 5 times a power of ten"
     for (const double wrong : {0.0, -1.0, 1e30, 1e-30, std::nan("")}) CHECK(round_length(wrong) == 0.0);
 }
 
-TEST_CASE("marks: numbers have four digits, and an exponent only where they are very small or large", "[marks]") {
-    const std::pair<double, const char*> rows[] = {{20, "20"},          {0.5, "0.5"},       {1.0 / 3, "0.3333"}, {12.3456, "12.35"},
-                                                   {123.456, "123.5"},  {12345.6, "12346"}, {0.001, "0.001"},    {0.0123456, "0.01235"},
-                                                   {9.99996, "10"},     {0, "0"},           {-2.5, "-2.5"},      {1e5, "1e+05"},
-                                                   {2.5e-5, "2.5e-05"}, {100, "100"}};
+TEST_CASE("marks: numbers have four digits or hundredths, and an exponent only where they are very small or large", "[marks]") {
+    const std::pair<double, const char*> rows[] = {
+        {20, "20"},           {0.5, "0.5"},     {1.0 / 3, "0.3333"},    {12.3456, "12.35"}, {123.456, "123.46"},
+        {12345.6, "12345.6"}, {0.001, "0.001"}, {0.0123456, "0.01235"}, {9.99996, "10"},    {0, "0"},
+        {-2.5, "-2.5"},       {1e5, "1e+05"},   {2.5e-5, "2.5e-05"},    {100, "100"}};
     for (const auto& row : rows) CHECK(number_text(row.first) == row.second);
 }
 

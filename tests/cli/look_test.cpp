@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -179,6 +180,18 @@ TEST_CASE("look: sheets are written for small sizes, points, lines, one triangle
             CHECK((outcome.code == 0 || outcome.code == 1));
             CHECK(read_picture(contents(folder.file("a.png"))).width > 2 * 16);
         }
+}
+
+TEST_CASE("look: a view faces each section", "[cli][look][section]") {
+    const std::pair<const char*, std::array<double, 3>> planes[] = {
+        {"x=0.2", {1, 0, 0}}, {"y=0.1", {0, 1, 0}}, {"z=-0.3", {0, 0, 1}}, {"1,1,0,0.5", {std::sqrt(0.5), std::sqrt(0.5), 0}}};
+    for (const auto& [plane, normal] : planes) {
+        INFO(plane);
+        const auto report = nlohmann::json::parse(run({"look", "sphere:500", "--size", "64", "--json", "-", "--section", plane}).out);
+        REQUIRE(report["views"].size() == 5);
+        CHECK(report["views"][4]["name"] == "section");
+        for (std::size_t k = 0; k < 3; ++k) CHECK(report["views"][4]["camera"]["r"][2][k].get<double>() == Approx(-normal[k]).margin(1e-6));
+    }
 }
 
 TEST_CASE("look: --projection is refused for views that make no drawing", "[cli][look]") {

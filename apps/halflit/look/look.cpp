@@ -19,6 +19,7 @@ namespace {
 
 constexpr PictureSize kCertifiedSize{800, 640};
 constexpr PictureSize kMargin{76, 44};  // pixels: room for dimension lines
+constexpr int kMostSectionViews = 4;
 constexpr std::size_t kMostAlone = 24;  // parts that are drawn alone
 constexpr const char* kPaper = "#eceef1";
 
@@ -33,7 +34,12 @@ void set_defaults(LookOptions& options) {
         if (const auto paper = parse_color(kPaper)) options.settings.background_linear = *paper;
     options.view.orthographic = !options.perspective;
     if (options.camera || options.camera_position || (options.whole_scene && options.film.views.empty())) return;  // one view
-    if (options.film.views.empty()) options.film.views = usual_views();
+    if (options.film.views.empty()) {
+        options.film.views = usual_views();
+        // The sides may all show a cut from behind.
+        for (int i = 0; !options.projection && i < std::min(static_cast<int>(options.sections.size()), kMostSectionViews); ++i)
+            options.film.views.push_back({.name = i == 0 ? "section" : fmt::format("section {}", i + 1), .of_section = i});
+    }
     options.whole_scene = true;
     if (!options.fit_px) {
         const PictureSize size = options.size.value_or(usual_size(options));

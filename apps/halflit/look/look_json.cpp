@@ -2,6 +2,7 @@
 
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/render/section_flags.hpp"
 #include "apps/halflit/report/camera_json.hpp"
 #include "apps/halflit/report/marks.hpp"
 #include "raster/scene/instance_material.hpp"
@@ -162,6 +163,12 @@ std::string look_footer(const RenderJob& job, const Json& measures) {
         if (n > 0) text += fmt::format(", {} {}", n, n == 1 ? one : many);
     };
     count("bodies", "body", "bodies");
+    if (!job.sections.cuts.empty()) {  // what is left may be open inside, where one cap fills several bodies
+        double area = 0.0;
+        for (const SectionCut& cut : job.sections.cuts) area += file_area(job, cut) * factor * factor;
+        return text +
+               fmt::format(", cut: {}{}{}", number_text(area), unit.name.empty() ? "" : " ", unit.name.empty() ? "" : unit.name + "2");
+    }
     if (measures["watertight"] == true) return text + ", watertight";
     count("open_edges", "open edge", "open edges");
     count("flipped_edges", "flipped edge", "flipped edges");

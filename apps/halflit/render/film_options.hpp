@@ -35,6 +35,7 @@ struct GivenView {
     float azimuth_deg = 0, elevation_deg = 0;
     bool named = false;    ///< relative to the model's front
     bool of_file = false;  ///< a camera of --camera-file; `name` is that of its picture
+    int of_section = -1;   ///< index of a --section that the view faces; its angles are those of the plane's normal
 };
 
 /// Names of kNamedViews, and pairs of numbers AZIMUTH,ELEVATION, with commas between them.

@@ -14,6 +14,7 @@
 #include "halflit/image.hpp"
 #include "halflit/scene.hpp"
 #include "raster/check_execution.hpp"
+#include "sh/arc.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/environment.hpp"
@@ -23,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 
 #include <sys/resource.h>
 
@@ -291,6 +293,13 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, P
         options.view.margin_x = 2.0 * options.fit_px->width / size.width;
         options.view.margin_y = 2.0 * options.fit_px->height / size.height;
     }
+    for (GivenView& view : options.film.views)
+        if (view.of_section >= 0) {
+            const Vec3d n = turned_upright(options.sections[static_cast<std::size_t>(view.of_section)].normal, place.up);
+            constexpr double kDegrees = 180.0 / kPi;
+            view.azimuth_deg = static_cast<float>(angle_of(n.x, n.z) * kDegrees);
+            view.elevation_deg = static_cast<float>(angle_of(n.y, std::sqrt(n.x * n.x + n.z * n.z)) * kDegrees);
+        }
     options.settings.shadow_fade = times(options.settings.shadow_fade, place.scale);
     options.lamp_size = times(options.lamp_size, place.scale);
     for (auto& [light, position] : options.lights) {

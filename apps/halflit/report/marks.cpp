@@ -11,8 +11,7 @@ std::string number_text(double value) {
     const double size = std::abs(value);
     if (size == 0.0) return "0";
     if (!(size >= 1e-3 && size < 1e5)) return fmt::format("{:.4g}", value);
-    int decimals = 3;  // for four digits, the first of which is before the point
-    for (double first = 10.0; size >= first && decimals > 0; first *= 10.0) --decimals;
+    int decimals = size >= 10.0 ? 2 : 3;  // four digits, or hundredths
     if (size < 1.0) decimals = size >= 0.1 ? 4 : size >= 0.01 ? 5 : 6;
     std::string text = fmt::format("{:.{}f}", value, decimals);
     if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);

@@ -15,7 +15,7 @@ struct MarkStyle {
     double line_width = 1.5;             ///< pixels
 };
 
-/// A number as engineers write it: four significant digits, all digits before the point, no zeros at the end. With an exponent below 1e-3
+/// A number as engineers write it: four significant digits or hundredths, no zeros at the end. With an exponent below 1e-3
 /// and from 1e5 on.
 [[nodiscard]] std::string number_text(double value);
 
