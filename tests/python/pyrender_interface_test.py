@@ -171,6 +171,19 @@ class Flags(unittest.TestCase):
                 self.assertEqual(draw(scene, flags)[0][0, 0].tolist(), wanted[:3].tolist())
                 self.assertEqual(draw(scene, flags | RenderFlags.RGBA)[0][0, 0].tolist(), wanted.tolist())
 
+    def test_what_is_empty_or_not_finite_is_not_drawn(self):
+        nothing = pyrender.Mesh([pyrender.Primitive(np.zeros((0, 3))), pyrender.Primitive(np.zeros((0, 3)), mode=GLTF.POINTS)])
+        nowhere = pyrender.Primitive(np.eye(3), poses=np.zeros((0, 4, 4)))
+        alone = pyrender.Mesh([pyrender.Primitive(np.eye(3), indices=np.zeros((0, 3), int)), nowhere])
+        self.assertEqual(nothing.bounds.shape, (2, 3))
+        wrong = square(normals=np.full((4, 3), np.nan))
+        for flags in (RenderFlags.NONE, RenderFlags.ALL_WIREFRAME, RenderFlags.FACE_NORMALS | RenderFlags.VERTEX_NORMALS):
+            depth = draw(seen((nothing, moved()), (alone, moved()), (pyrender.Mesh([]), moved())), flags)[1]
+            self.assertFalse(depth.any())
+            self.assertTrue(draw(seen((wrong, moved())), flags)[1].any())
+        broken = pyrender.Primitive(np.eye(3), indices=[[0, 1, 7]])
+        self.assertRaises(ValueError, draw, seen((pyrender.Mesh([broken]), moved())))
+
     def test_shapes_and_types(self):
         scene = seen((square(), moved()))
         color, depth = draw(scene)
@@ -443,6 +456,9 @@ class Uploads(unittest.TestCase):
             triangles = np.concatenate([stand_ins.uv_sphere(0.2, 5).triangles + (place @ pose)[:3, 3] for pose in poses])
             expected = ray_cast.depths(triangles, ray_cast.perspective(math.pi / 2, (SIZE, SIZE)), moved(z=2), (SIZE, SIZE))
             self.assertLess(np.mean((self.renderer.render(scene)[1] > 0) != (expected > 0)), 0.005)
+        self.calls(scene)
+        mesh.primitives[0].poses = poses @ moved(0, 0.1)
+        self.assertEqual(self.calls(scene), ["place_instances"])
         mesh.primitives[0].poses = poses[:1]
         self.assertLess((self.renderer.render(scene)[1] > 0).sum(), 0.6 * (expected > 0).sum())
 

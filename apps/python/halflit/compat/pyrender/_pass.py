@@ -60,13 +60,18 @@ class Pass:
             request.struct.width, request.struct.height = size
             request.struct.add_lights = 0  # a scene without light is black
             world.setup = set_up(world.scene, request)
+            world.settings.clear()
         elif world.setup_key[1] != view.key:
             world.setup = world.setup._seen_by(view.camera)
         world.setup_key = light_key, view.key
 
     def pixels(self, dtype: Any) -> Array:
-        """Colours, (height, width, 4): uint8 sRGB codes or float32 light; linear alpha."""
-        return np.asarray(self._draw({**self.options, "dtype": dtype}).picture)
+        """Colours, (height, width, 4): uint8 sRGB codes or float32 light; linear alpha. The next pass over the world draws into them."""
+        shape, kept = (self.size[1], self.size[0], 4), self.world.pixels
+        if kept is None or kept.shape != shape or kept.dtype != dtype:
+            kept = self.world.pixels = np.empty(shape, dtype)
+        self._draw({**self.options, "out": kept})
+        return kept
 
     def planes(self, *names: str) -> Dict[str, Array]:
         """Planes of halflit.AOVS at the middles of the pixels."""
@@ -75,8 +80,13 @@ class Pass:
 
     def _draw(self, options: Dict[str, Any], has_pixels: bool = True) -> Any:
         scene: Any = self.world.scene
+        key = tuple(sorted((name, str(value)) for name, value in options.items() if name not in ("out", "aovs")))
         with scene._lock:
-            settings = _frame.settings_of(scene, self.world.setup, options)
+            settings = self.world.settings.get(key)
+            if settings is None:
+                if len(self.world.settings) > 16:
+                    self.world.settings.clear()
+                settings = self.world.settings[key] = _frame.settings_of(scene, self.world.setup, options)
             target: Any = Target(self.size, settings, options)
             if not has_pixels:
                 target.struct.pixels = None

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, Sequence, Set, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
 
 import numpy as np
 
@@ -31,7 +31,10 @@ class World:
         self.scene = Scene()
         self.setup: Any = None  # see _pass.py
         self.setup_key: Any = None
+        self.settings: Dict[Any, Any] = {}  # of the setup's light, by options
+        self.pixels: Optional[Array] = None
         self.instance_nodes: List[Tuple[Node, int]] = []  # what is drawn, and its instance
+        self.has_blends = False  # something is seen through
         self._key: Any = None
         self._meshes: Dict[Part, Tuple[int, int]] = {}  # mesh, material
         self._made: Dict[Part, Any] = {}  # the key by which a part was uploaded
@@ -53,20 +56,20 @@ class World:
             mesh = node.mesh
             assert mesh is not None
             for primitive in mesh.primitives:
-                key.append((node, primitive, _key_of(primitive)))
+                key.append((node, primitive, _key_of(primitive), primitive._moves))
         if key != self._key:
             self._upload(key[1:], rows)
             self._key = key
         self._place(poses)
 
-    def _upload(self, wanted: List[Tuple[Node, Primitive, Any]], rows: Dict[Node, int]) -> None:
+    def _upload(self, wanted: List[Tuple[Node, Primitive, Any, int]], rows: Dict[Node, int]) -> None:
         keys: Dict[Part, Any] = {}
-        places: Dict[Tuple[Node, Part], None] = {}
-        for node, primitive, key in wanted:
+        places: Dict[Tuple[Node, Part], int] = {}
+        for node, primitive, key, _ in wanted:
             for is_normals in (False, True) if self.style.normals else (False,):
                 keys[primitive, is_normals] = key
-                places[node, (primitive, is_normals)] = None
-        for place in [place for place in self._placed if place not in places or self._made.get(place[1]) != keys[place[1]]]:
+                places[node, (primitive, is_normals)] = 1 if primitive.poses is None else len(primitive.poses)
+        for place in [place for place, instances in self._placed.items() if places.get(place) != len(instances)]:
             for index in self._placed.pop(place):
                 self.scene.remove_instance(index)
         for part in [part for part in self._meshes if part not in keys]:
@@ -80,11 +83,11 @@ class World:
                 self._add(part)
                 self._made[part] = key
         self._drop_textures(keys)
-        for node, part in places:
+        for (node, part), count in places.items():
             if (node, part) not in self._placed:
-                count = 1 if part[0].poses is None else len(part[0].poses)
                 mesh = self._meshes[part][0]
                 self._placed[node, part] = [self.scene.add_instance(mesh) for _ in range(count)]  # one by one, which takes free indices
+        self.has_blends = any(blends(primitive, self.style) for primitive, _ in self._meshes)
         self._order(rows)
 
     def _add(self, part: Part) -> None:
@@ -148,14 +151,14 @@ class World:
         for which, own in self._own:
             matrices[which] = matrices[which] @ own
         moved = np.flatnonzero((matrices != self._matrices).any(axis=(1, 2)))
-        if len(moved):
-            self.scene.set_instances(matrices[moved], self._indices[moved])
-            self._matrices = matrices
-
-    @property
-    def has_blends(self) -> bool:
-        """Whether something is seen through."""
-        return any(blends(primitive, self.style) for primitive, _ in self._meshes)
+        if not len(moved):
+            return
+        # Scene.set_instances() without its checks, which take longer than the call: Node has looked at the matrices.
+        places = np.ascontiguousarray(matrices[moved].transpose(0, 2, 1), np.float32)
+        indices = self._indices[moved]
+        change: Any = self.scene._change
+        change("scene_place_instances", indices.ctypes.data, len(places), places.ctypes.data)
+        self._matrices = matrices
 
     # ---- light ----------------------------------------------------------------------------------------------------------
 

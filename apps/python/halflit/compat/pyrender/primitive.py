@@ -31,6 +31,7 @@ class Primitive(Checked):
     indices: Optional[Array]
     poses: Optional[Array]
     _box: Optional[Array]
+    _moves = 0  # counts changes of the poses
 
     def __init__(
         self,
@@ -64,7 +65,11 @@ class Primitive(Checked):
                 raise ValueError(f"mode: expected 0 to 6, found {value}")
         elif value is not None:
             value = self._array(name, value)
-        super().__setattr__(name, value)
+        if name == "poses":  # nothing has to be uploaded but places
+            object.__setattr__(self, name, value)
+            object.__setattr__(self, "_moves", self._moves + 1)
+        else:
+            super().__setattr__(name, value)
         if name in ("positions", "poses"):
             object.__setattr__(self, "_box", None)
 
