@@ -24,6 +24,7 @@ from ._setup import Setup
 
 if TYPE_CHECKING:
     from ._picture import Picture as Picture
+    from ._sheet import contact_sheet as contact_sheet
 
 __version__ = _c.VERSION
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "Setup",
     "TextureUse",
     "UsageError",
+    "contact_sheet",
     "pixel_epoch",
     "render",
     "render_meshes",
@@ -62,9 +64,13 @@ def pixel_epoch() -> int:
 
 
 def __getattr__(name: str) -> Any:
-    # Picture is a numpy array, and numpy takes longer to import than all else.
+    # These need numpy, which takes longer to import than all else.
     if name == "Picture":
         from ._picture import Picture
 
         return Picture
+    if name == "contact_sheet":
+        from ._sheet import contact_sheet
+
+        return contact_sheet
     raise AttributeError(f"module 'halflit' has no attribute {name!r}")

@@ -111,9 +111,13 @@ class Execution:
         if options.get("isa") is not None:
             struct.isa = _c.bytes_of(options["isa"], "isa")
         progress, cancelled = options.get("progress"), options.get("cancelled")
-        for name in ("progress", "cancelled"):
-            if options.get(name) is not None and not callable(options[name]):
-                raise UsageError(f"{name}: expected a function, found {options[name]!r}")
+        if progress is True or progress is False:
+            from ._progress import bar
+
+            progress = bar() if progress else None
+        for name, given in (("progress", progress), ("cancelled", cancelled)):
+            if given is not None and not callable(given):
+                raise UsageError(f"{name}: expected a function, found {given!r}")
         self.has_callbacks = progress is not None or cancelled is not None
         if self.has_callbacks:
             struct.progress = _c.Progress(lambda _, share: self._guarded(progress, share))

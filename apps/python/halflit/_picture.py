@@ -1,7 +1,10 @@
 """A picture: a numpy array that shows itself in notebooks. This module imports numpy."""
 from __future__ import annotations
 
+import base64
 import ctypes
+import html
+import math
 import os
 from typing import TYPE_CHECKING, Any, BinaryIO, Dict, Optional, Tuple, Union, cast
 
@@ -162,6 +165,21 @@ class Picture(_Base):
             divided = (pixels[:, :, :3].astype(np.uint32) * 255 + wide // 2) // np.maximum(wide, 1)
             straight[:, :, :3] = np.where(wide > 0, np.minimum(divided, 255), 0)
         return straight
+
+    def _repr_html_(self) -> Optional[str]:
+        """What Jupyter shows: the picture, with its size and its camera as a text."""
+        try:
+            data = base64.b64encode(self.to_png()).decode()
+        except UsageError:
+            return None
+        lines = [f"{self.shape[1]} x {self.shape[0]}, {self.dtype}"]
+        if self.camera is not None:
+            place, name = self.camera.matrix, f"camera {self.camera.name!r}" if self.camera.name else "camera"
+            eye, ahead = (", ".join(f"{x + 0.0:.4g}" for x in column) for column in (place[:3, 3], -place[:3, 2]))
+            wide = "orthographic" if self.camera.orthographic else f"{math.degrees(self.camera.fov_y_rad):.3g}° high"
+            lines.append(f"{name} at ({eye}), looking along ({ahead}), {wide}")
+        text = html.escape("; ".join(lines))
+        return f'<img src="data:image/png;base64,{data}" alt="{text}" title="{text}"><br><small>{text}</small>'
 
     def _repr_png_(self) -> Optional[bytes]:
         """What Jupyter shows; parts that are no picture, such as a row, are shown as numbers."""

@@ -105,7 +105,8 @@ class PictureOptions(ViewOptions, total=False):
         tile_size: 16, 32 or 64 pixels (64)
         time_limit: seconds for the frame; beyond it LimitError (0: none)
         memory_limit: bytes of working memory for the frame; beyond it LimitError (0: none)
-        progress: called with the share that is done, 0 to 1, from threads of the library (none)
+        progress: called with the share that is done, 0 to 1, from threads of the library; True: shows a bar, by tqdm if it is
+            installed (none)
         cancelled: called before each part, from threads of the library; true stops the frame with CancelledError (none)
     """
 
@@ -151,5 +152,5 @@ class PictureOptions(ViewOptions, total=False):
     tile_size: int
     time_limit: float
     memory_limit: int
-    progress: Callable[[float], Any]
+    progress: Union[Callable[[float], Any], bool]
     cancelled: Callable[[], Any]

@@ -1,0 +1,121 @@
+"""What shows pictures to people: sheets of several, notebooks, bars."""
+import base64
+import contextlib
+import importlib.util
+import io
+import re
+import sys
+import types
+import unittest
+import unittest.mock
+
+import numpy as np
+
+import halflit
+
+HAS_PILLOW = importlib.util.find_spec("PIL") is not None
+
+
+def plain(height, width, *color):
+    picture = np.empty((height, width, len(color)), np.uint8)
+    picture[:] = color
+    return picture
+
+
+class Sheets(unittest.TestCase):
+    def test_pictures_lie_in_rows(self):
+        colors = [(200, 10, 10), (10, 200, 10), (10, 10, 200), (90, 90, 90), (5, 6, 7)]
+        sheet = halflit.contact_sheet([plain(20, 30, *color) for color in colors], columns=2, gap=4, background="#010203")
+        self.assertIsInstance(sheet, halflit.Picture)
+        self.assertEqual((sheet.shape, sheet.dtype), ((3 * 24 + 4, 2 * 34 + 4, 4), np.uint8))
+        expected = plain(76, 72, 1, 2, 3, 255)
+        for i, color in enumerate(colors):
+            expected[4 + 24 * (i // 2) :, 4 + 34 * (i % 2) :][:20, :30, :3] = color
+        self.assertEqual(sheet.tolist(), expected.tolist())
+        self.assertEqual(halflit.contact_sheet([plain(8, 8, 1, 1, 1)] * 5, gap=0).shape, (16, 24, 4))
+
+    def test_pictures_of_any_size_and_kind_lie_over_the_background(self):
+        half = np.zeros((4, 4, 4), np.float32)
+        half[:] = (1, 1, 1, 0.5)
+        sheet = halflit.contact_sheet([half, plain(8, 8, 255, 0, 0, 0)], gap=0, background="black")
+        self.assertEqual(sheet[4, 4].tolist(), [128, 128, 128, 255])
+        self.assertEqual(sheet[0, 0].tolist(), [0, 0, 0, 255])  # the smaller picture lies in the middle
+        self.assertTrue((sheet[:, 8:] == (0, 0, 0, 255)).all())
+
+    @unittest.skipUnless(HAS_PILLOW, "no Pillow")
+    def test_labels_lie_below_their_pictures(self):
+        views = halflit.Scene.demo().render_views(["front", "top"], (96, 64))
+        with_labels, without = halflit.contact_sheet(views), halflit.contact_sheet(list(views.values()))
+        below = (with_labels.shape[0] - without.shape[0])
+        self.assertGreater(below, 10)
+        self.assertEqual(with_labels[: 8 + 64].tolist(), without[: 8 + 64].tolist())
+        strip = with_labels[8 + 64 : 8 + 64 + below].astype(int)
+        ink = np.abs(strip - strip[0, 0]).max(axis=2) > 60
+        for half in (ink[:, : ink.shape[1] // 2], ink[:, ink.shape[1] // 2 :]):
+            self.assertGreater(half.sum(), 15)
+        long = halflit.contact_sheet(list(views.values()), labels=["one that is far too long for a narrow picture", "ü ∞"], columns=1)
+        self.assertEqual(long.shape[1], 96 + 16)
+
+    def test_what_is_wrong_is_named(self):
+        for given, options, said in (
+            ([], {}, "pictures: expected one"),
+            ([np.zeros((4, 4), np.uint8)], {}, "picture 0: expected uint8 or float32"),
+            ([plain(4, 4, 1, 1, 1)], {"labels": []}, "labels: 0, expected one for each of 1"),
+            ([plain(4, 4, 1, 1, 1)], {"columns": 0}, "columns: expected"),
+        ):
+            with self.assertRaisesRegex(halflit.UsageError, said):
+                halflit.contact_sheet(given, **options)
+
+
+class Notebooks(unittest.TestCase):
+    def test_a_picture_tells_its_camera(self):
+        picture = halflit.Scene.demo().render((32, 20))
+        text = picture._repr_html_()
+        data = re.search(r'src="data:image/png;base64,(.*?)"', text).group(1)
+        self.assertEqual(base64.b64decode(data), picture.to_png())
+        eye = ", ".join(f"{x:.4g}" for x in picture.camera.matrix[:3, 3])
+        self.assertIn(f"32 x 20, uint8; camera at ({eye}), looking along", text)
+        self.assertNotIn("camera at", picture[:8]._repr_html_())
+        self.assertIsNone(picture[0]._repr_html_())
+
+
+class Bars(unittest.TestCase):
+    def drawn(self, tqdm):
+        error = io.StringIO()
+        with unittest.mock.patch.dict(sys.modules, {"tqdm": tqdm, "tqdm.auto": tqdm}), contextlib.redirect_stderr(error):
+            picture = halflit.render("demo", (320, 200), progress=True)
+        self.assertEqual(picture.pixel_hash, halflit.render("demo", (320, 200), progress=False).pixel_hash)
+        return error.getvalue()
+
+    def test_a_line_is_written_over_itself(self):
+        with unittest.mock.patch("halflit._progress._PAUSE", 0.0):
+            said = self.drawn(None)  # as if it were not installed
+        shown = [int(share) for share in re.findall(r"\r\[[# ]{30}\] +(\d+) %", said)]
+        self.assertEqual((shown, shown[-1]), (sorted(shown), 100))
+        self.assertEqual(said.count("\n"), 1)
+        with unittest.mock.patch("halflit._progress._PAUSE", 60.0):
+            self.assertEqual(self.drawn(None), "")  # a short frame
+
+    def test_tqdm_shows_it_where_it_is_installed(self):
+        bars = []
+
+        class Bar:
+            def __init__(self, total, **_):
+                self.total, self.n, self.closed = total, 0, 0
+                bars.append(self)
+
+            def update(self, count):
+                self.n += count
+
+            def close(self):
+                self.closed += 1
+
+        module = types.ModuleType("tqdm.auto")
+        module.tqdm = Bar
+        self.assertEqual(self.drawn(module), "")
+        (bar,) = bars
+        self.assertEqual((bar.total, bar.n, bar.closed), (100, 100, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
