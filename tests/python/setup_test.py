@@ -141,5 +141,69 @@ class Keywords(unittest.TestCase):
             halflit.render(box(), 8, load={"time": 1})
 
 
+class Poses(unittest.TestCase):
+    """A camera for all that will be seen."""
+
+    def share(self, picture):
+        """Whether something lies on the picture's rim, and the share of its pixels that are drawn."""
+        drawn = picture.aovs["id"] > 0
+        return drawn[0].any() or drawn[-1].any() or drawn[:, 0].any() or drawn[:, -1].any(), drawn.mean()
+
+    def scene(self, **options):
+        scene = halflit.Scene(**options)
+        scene.add_mesh(CORNERS, FACES)
+        return scene
+
+    def test_every_pose_is_seen_whole(self):
+        for up in ("y", "z"):
+            for options in ({}, {"azimuth": 80, "elevation": 5}, {"view": "front", "orthographic": True}):
+                scene, path = self.scene(up=up), [moved(9 * np.cos(t), 4 * np.sin(t), t) for t in range(6)]
+                setup = scene.setup((60, 40), poses=[[matrix] for matrix in path], **options)
+                self.assertEqual(scene.instance(0)[1].tolist(), np.eye(4).tolist())  # put back
+                for matrix in path:
+                    scene.set_instance(0, matrix)
+                    on_rim, share = self.share(scene.render(setup=setup, aovs=["id"]))
+                    self.assertFalse(on_rim)
+                    self.assertGreater(share, 0.001)
+
+    def test_functions_pose(self):
+        scene = self.scene()
+        by_matrices = scene.setup(50, poses=[[moved(6)], [moved(-6)]])
+        by_functions = scene.setup(50, poses=[lambda x=x: scene.set_instance(0, moved(x)) for x in (6, -6)])
+        self.assertEqual(scene.instance(0)[1].tolist(), moved(-6).tolist())  # left as the last one poses it
+        self.assertEqual(by_functions.camera, by_matrices.camera)
+
+    def test_a_box_is_seen_whole_and_fills_the_picture(self):
+        scene = self.scene()
+        alone = scene.setup(50)
+        of_box = scene.setup(50, bounds=[[-1, -1, -1], [1, 1, 1]])
+        self.assertTrue(np.allclose(of_box.camera.matrix, alone.camera.matrix, atol=1e-5))
+        far = scene.setup(50, bounds=[[-1, -1, -1], [1e6, 1, 1]])
+        self.assertGreater(np.abs(far.camera.matrix[:3, 3]).max(), 1e5)
+        moved_away = self.scene()
+        moved_away.set_instance(0, moved(1e5, 0, 0))
+        self.assertTrue(np.allclose(moved_away.setup(50, bounds=[[1e5 - 1, -1, -1], [1e5 + 1, 1, 1]]).camera.matrix[:3, 3] - [1e5, 0, 0],
+                                    alone.camera.matrix[:3, 3], atol=1e-4))  # fmt: skip
+
+    def test_the_light_is_that_of_the_scene(self):
+        scene = self.scene()
+        scene.add_light("point", position=(2, 3, 2), color=(8, 8, 7))
+        setup = scene.setup(50, poses=[[moved(3)], [moved(-3)]], exposure=0.7)
+        self.assertEqual(round(setup.exposure, 6), 0.7)
+        picture = scene.render(setup=setup)
+        self.assertEqual(picture.pixel_hash, scene.render(50, camera=setup.camera, exposure=0.7).pixel_hash)
+
+    def test_what_is_wrong_is_named(self):
+        scene = self.scene()
+        for options, said in (
+            ({"poses": []}, "poses: expected one"),
+            ({"bounds": [1, 2]}, "bounds: expected the least"),
+            ({"bounds": [[1, 1, 1], [0, 0, 0]]}, "bounds: expected the least"),
+            ({"bounds": [[0, 0, 0], [1, 1, 1]], "camera": np.eye(4)}, "poses, bounds: cannot be combined with camera"),
+        ):
+            with self.assertRaisesRegex(halflit.UsageError, said):
+                scene.setup(8, **options)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -5,21 +5,39 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._color import BRIGHTEST, linear_from_codes
+from ._color import BRIGHTEST, linear_from_codes, linear_from_srgb
 from ._errors import UsageError, warn
 from ._types import Array
 from ._values import shown
 
+#: Kinds of DLPack's devices: kDLCPU, kDLCUDAHost.
+_MAIN_MEMORY = (1, 3)
+
 
 def array_of(value: Any, name: str) -> Array:
     """An array of numbers."""
+    if not isinstance(value, np.ndarray):
+        value = _in_main_memory(value, name)
     try:
         array = np.asarray(value)
     except (TypeError, ValueError):  # rows of different lengths
         array = np.empty(0, object)
+    except RuntimeError as error:  # a tensor that follows gradients
+        raise UsageError(f"{name}: {error}") from None
     if array.dtype.kind not in "fiub":
         raise UsageError(f"{name}: expected an array of numbers, found {shown(value)}")
     return array
+
+
+def _in_main_memory(value: Any, name: str) -> Any:
+    """A tensor of another library as numpy's array, by the protocol DLPack if it has no other. One in a GPU's memory is refused."""
+    device = getattr(value, "__dlpack_device__", None)
+    is_elsewhere = bool(getattr(value, "is_cuda", False)) or (device is not None and device()[0] not in _MAIN_MEMORY)
+    if is_elsewhere:
+        raise UsageError(f"{name}: expected an array in main memory, found one on a GPU: hand over a copy, as by tensor.cpu()")
+    if hasattr(value, "__dlpack__") and not hasattr(value, "__array__") and hasattr(np, "from_dlpack"):
+        return np.from_dlpack(value)
+    return value
 
 
 def numbers(value: Any, kind: Any, name: str) -> Array:
@@ -61,13 +79,22 @@ def positions(value: Any, count: Optional[int] = None) -> Array:
     return array
 
 
-def colors(value: Any, count: int) -> Array:
-    """Vertex colours: float32 of shape (n, 4), linear. Bytes are sRGB codes; alpha may be left out. Codes of another type are refused."""
+def colors(value: Any, count: int, space: Optional[str] = None) -> Array:
+    """Vertex colours: float32 of shape (n, 4), linear; alpha may be left out. Codes of another type than uint8 are refused.
+
+    space: "srgb" or "linear"; None: bytes are sRGB codes and floats linear light.
+    """
+    if space not in (None, "srgb", "linear"):
+        raise UsageError(f"colors_space: expected 'srgb' or 'linear', found {shown(space)}")
     array = array_of(value, "colors")
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise UsageError(f"colors: expected an array of shape (n, 3) or (n, 4), found {array.shape}")
     if array.dtype == np.uint8:
-        array = linear_from_codes(array)
+        array = array / np.float32(255) if space == "linear" else linear_from_codes(array)
+    elif space == "srgb":
+        if array.size and not (array.min() >= 0 and array.max() <= 1):
+            raise UsageError(f"colors: expected sRGB values from 0 to 1, or uint8, found {array.dtype} from {array.min()} to {array.max()}")
+        array = np.concatenate([linear_from_srgb(array[:, :3]), array[:, 3:]], axis=1)
     else:
         array = floats(array, array.shape[1], "colors") if array.dtype.kind == "f" else array
         most = BRIGHTEST if array.dtype.kind == "f" else 1

@@ -59,8 +59,16 @@ def color(value: Color, name: str, count: int, most: Optional[float] = None) -> 
     return numbers + [1.0] * (count - len(numbers))
 
 
+#: Colours by the names of CSS 2.
+NAMES = {
+    "aqua": "00ffff", "black": "000000", "blue": "0000ff", "cyan": "00ffff", "fuchsia": "ff00ff", "gray": "808080", "green": "008000",
+    "grey": "808080", "lime": "00ff00", "magenta": "ff00ff", "maroon": "800000", "navy": "000080", "olive": "808000", "orange": "ffa500",
+    "purple": "800080", "red": "ff0000", "silver": "c0c0c0", "teal": "008080", "white": "ffffff", "yellow": "ffff00",
+}  # fmt: skip
+
+
 def _codes_of(text: str, name: str) -> Array:
-    digits = text[1:] if text.startswith("#") else ""
+    digits = text[1:] if text.startswith("#") else NAMES.get(text.lower(), "")
     if len(digits) in (3, 4):
         digits = "".join(2 * digit for digit in digits)
     try:
@@ -68,5 +76,5 @@ def _codes_of(text: str, name: str) -> Array:
     except ValueError:
         codes = []
     if len(codes) not in (3, 4):
-        raise UsageError(f"{name}: expected #rgb, #rrggbb, #rrggbbaa or numbers, found {text!r}")
+        raise UsageError(f"{name}: expected #rgb, #rrggbb, #rrggbbaa, a name such as white, or numbers, found {text!r}")
     return np.array(codes, np.uint8)

@@ -85,6 +85,7 @@ class Geometry(SceneBase):
         uv: Any = None,
         uv1: Any = None,
         colors: Any = None,
+        colors_space: Optional[str] = None,
         tangents: Any = None,
         material: MaterialOf = None,
         topology: str = "triangles",
@@ -98,13 +99,15 @@ class Geometry(SceneBase):
         normals: (n, 3), "smooth" (made from the faces around each vertex, anew when they move), or None: each triangle is flat.
         uv, uv1: (n, 2), v = 0 is the first row of a texture. tangents: (n, 4), direction and +1 or -1.
         colors: (n, 3) or (n, 4), uint8 sRGB codes, or linear floats, where 1 is white; above 16 they are taken for codes and refused.
+        colors_space: "srgb": floats, too, are sRGB values, 0 to 1; "linear": uint8, too, are linear.
         material: index, Material, or a dict of its members; None: white, roughness 0.6, seen from both sides.
         topology: "triangles", "lines" (faces: (m, 2)) or "points" (faces: (m,)).
         """
         from ._mesh import MeshArrays
 
         with self._lock:
-            arrays = MeshArrays(name, topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
+            arrays = MeshArrays(name, topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, colors_space=colors_space,
+                                tangents=tangents)  # fmt: skip
             at = self._placement(matrix)
             index = ctypes.c_int32()
             own = isinstance(material, (Material, dict))
@@ -116,7 +119,7 @@ class Geometry(SceneBase):
             return index.value
 
     def set_mesh(self, index: int, vertices: Any, faces: Any = None, *, normals: Any = None, uv: Any = None, uv1: Any = None,
-                 colors: Any = None, tangents: Any = None,
+                 colors: Any = None, colors_space: Optional[str] = None, tangents: Any = None,
                  material: MaterialOf = None, topology: str = "triangles", name: Optional[str] = None) -> None:  # fmt: skip
         """Replaces a mesh in all its instances; arguments as in add_mesh(), but material None: the mesh keeps its material.
 
@@ -125,7 +128,8 @@ class Geometry(SceneBase):
         from ._mesh import MeshArrays
 
         with self._lock:
-            arrays = MeshArrays(name, topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, tangents=tangents)
+            arrays = MeshArrays(name, topology, vertices, faces, normals, uv=uv, uv1=uv1, colors=colors, colors_space=colors_space,
+                                tangents=tangents)  # fmt: skip
             if material is None and index not in self._materials:
                 raise UsageError(f"material: expected one, as mesh {shown(index)} was not added by add_mesh()")
             own = isinstance(material, (Material, dict))

@@ -37,7 +37,9 @@ class MeshArrays:
         for member, argument, value, columns in (*named, ("tangents", "tangents", attributes["tangents"], 4)):
             self.arrays[member] = None if value is None else _arrays.finite(value, columns, argument, self.count)
         colors = attributes["colors"]
-        self.arrays["colors"] = None if colors is None else _arrays.colors(colors, self.count)
+        if colors is None and attributes["colors_space"] is not None:
+            raise UsageError("colors_space: has no effect without colors")
+        self.arrays["colors"] = None if colors is None else _arrays.colors(colors, self.count, attributes["colors_space"])
 
     def struct(self, material: int) -> Any:
         """The halflit_mesh, which points to the arrays of this object."""

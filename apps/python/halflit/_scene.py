@@ -39,6 +39,7 @@ class Scene(Geometry, Lighting):
         self._start(_c.Handle("scene_create", "scene_destroy"))
         if up != "y":
             self._call("scene_set_up", up_axis(up))
+            self._up = up
 
     @classmethod
     def _of(cls, handle: _c.Handle) -> Scene:
@@ -61,8 +62,8 @@ class Scene(Geometry, Lighting):
         up: Optional[str] = None,
         **options: Any,
     ) -> Scene:
-        """A scene of a model's file (glTF, STL, PLY, OBJ, 3MF and others), of its bytes, or of a file object that is open in binary mode; the
-        content tells the format.
+        """A scene of a model's file (glTF, STL, PLY, OBJ, 3MF and others), of its bytes, or of a file object that is open in binary mode.
+        The content tells the format.
 
         animation: name or index of the animation that poses it (the first), or "none"; time: seconds.
         scene: name or index of the file's scene. variant: of the file's materials.
@@ -179,16 +180,24 @@ class Scene(Geometry, Lighting):
 
     # ---- drawing --------------------------------------------------------------------------------------------------------
 
-    def setup(self, size: Size = None, **options: Unpack[ViewOptions]) -> Setup:
+    def setup(
+        self, size: Size = None, *, poses: Optional[Iterable[Any]] = None, bounds: Any = None, **options: Unpack[ViewOptions]
+    ) -> Setup:
         """Chooses camera, light and exposure for a picture of size (width, height), as render() does, for many pictures by
         render(setup=...): nothing is chosen anew while things move. After a change of light, call it again.
 
-        Keywords are those of halflit.PictureOptions about the view and the light that is chosen.
+        poses: the camera contains the scene in all of them; each a function that poses it, or matrices (n, 4, 4) of the instances 0 to
+        n - 1, which are put back. bounds: a box, (2, 3), that the camera contains. Other keywords are those of halflit.PictureOptions about
+        the view and the light that is chosen.
+
+            setup = scene.setup(512, poses=[lambda t=t: scene.pose(time=t) for t in (0, 0.5, 1)])
         """
-        from ._setup import check_view, choose
+        from ._setup import check_view, choose, choose_for_all
 
         check_view(options)
         with self._lock:
+            if poses is not None or bounds is not None:
+                return choose_for_all(self, size, poses, bounds, dict(options))
             return choose(self, size, dict(options))
 
     def render(self, size: Size = None, **options: Unpack[PictureOptions]) -> pictures.Picture:

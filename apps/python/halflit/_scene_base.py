@@ -21,6 +21,7 @@ class SceneBase:
         self._renderer: Any = None
         self._executed: Any = None  # Execution.key of the renderer
         self._world = World()
+        self._up = "y"  # the caller's world's axis that points up
         self._changes = 0  # of anything that setup() looks at
         self._chosen: Any = None  # what was chosen for the last frame, and the key of what it was chosen for
         self._own_lights = False  # add_light() was called

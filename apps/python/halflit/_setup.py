@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Dict, Iterable, NoReturn, Optional, Tuple
+from typing import Any, Dict, Iterable, List, NoReturn, Optional, Tuple
 
 from . import _c
 from ._camera import Camera
@@ -170,6 +170,52 @@ def choose(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:
         scene._chosen = set_up(scene, request), key
     found: Setup = scene._chosen[0]
     return found
+
+
+def choose_for_all(scene: Any, size: Any, poses: Any, bounds: Any, options: Dict[str, Any]) -> Setup:
+    """The setup whose camera contains the scene in all poses, and the box."""
+    if options.get("camera") is not None:
+        raise UsageError("poses, bounds: cannot be combined with camera, which they make")
+    boxes = [] if bounds is None else [checked_box(bounds)]
+    boxes += boxes_of_poses(scene, [] if poses is None else poses)
+    if not boxes:
+        raise UsageError("poses: expected one in which something is drawn")
+    low, high = np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)
+    middle, half = (low + high) / 2, np.maximum((high - low) / 2, 1e-6 * np.abs(high - low).max() or 1e-6)
+    of_box = type(scene)(up=scene._up)  # around its own origin, where float32 is exact enough
+    of_box.add_mesh(np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half, topology="points")
+    camera = choose(of_box, size, options).camera
+    matrix = camera.matrix
+    matrix[:3, 3] += middle
+    camera.matrix = matrix
+    rest = {name: value for name, value in options.items() if name not in WHOLE_SCENE}
+    return choose(scene, size, {**rest, "camera": camera})._seen_by(camera)
+
+
+def checked_box(bounds: Any) -> Any:
+    from ._arrays import numbers
+
+    box = numbers(bounds, np.float64, "bounds")
+    if box.shape != (2, 3) or not np.isfinite(box).all() or (box[0] > box[1]).any():
+        raise UsageError(f"bounds: expected the least and the largest corner of a box, (2, 3), found {shown(bounds)}")
+    return box
+
+
+def boxes_of_poses(scene: Any, poses: Iterable[Any]) -> List[Any]:
+    """The boxes of the scene in these poses. Matrices are put back."""
+    boxes: List[Any] = []
+    before: List[Any] = []
+    for pose in poses:
+        if callable(pose):
+            pose()
+        else:
+            before += [scene.instance(i)[1] for i in range(len(before), len(pose))]
+            scene.set_instances(pose)
+        if scene.bounds is not None:
+            boxes.append(scene.bounds)
+    if before:
+        scene.set_instances(before)
+    return boxes
 
 
 def kept(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:

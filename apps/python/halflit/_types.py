@@ -22,7 +22,7 @@ else:
                     return Any
 
 
-#: "#rrggbb", numbers of linear light, or uint8 sRGB codes.
+#: "#rrggbb", a name of CSS such as "white", numbers of linear light, or uint8 sRGB codes.
 Color = Union[str, Sequence[float], Array]
 Point = Union[Sequence[float], Array]
 #: (width, height) in pixels, or the side of a square.
