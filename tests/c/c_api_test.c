@@ -2,6 +2,7 @@
 #include "peer.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -1047,6 +1048,49 @@ static void lazy_loop(void* user, int32_t count, void (*body)(void* task, int32_
     body(task, count);  // the only call, of a part that does not exist
 }
 
+static volatile sig_atomic_t interrupts = 0;
+
+static void count_interrupt(int number) {
+    (void)number;
+    ++interrupts;
+}
+
+static void raise_interrupt(void* user, double share) {
+    (void)user, (void)share;
+    if (interrupts == 0) raise(SIGINT);
+}
+
+/// SIGINT stops a frame that asks for it. The process's own handler runs, and is back after the frame.
+static void test_interrupt(void) {
+    Cube cube = make_cube();
+    const uint64_t expected = draw_cube(NULL, &cube);
+    halflit_execution execution;
+    halflit_renderer* renderer;
+    CHECK_OK(halflit_execution_init(&execution, sizeof execution));
+    CHECK(execution.stop_at_interrupt == 0);
+    execution.progress = raise_interrupt;
+    execution.tile_size = 16;
+    execution.threads = 1;
+    signal(SIGINT, count_interrupt);
+    CHECK_OK(halflit_renderer_create(&execution, &renderer));
+    CHECK(draw_cube(renderer, &cube) == expected && interrupts == 1);
+    interrupts = 0;
+    signal(SIGINT, count_interrupt);
+    execution.stop_at_interrupt = 1;
+    CHECK_OK(halflit_renderer_set_execution(renderer, &execution));
+    {
+        static uint8_t pixels[PIXELS * 4];
+        const halflit_target target = make_target(pixels);
+        CHECK_FAILS(halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, NULL),
+                    HALFLIT_ERROR_CANCELLED, "stopped");
+    }
+    CHECK(interrupts == 1);
+    CHECK(signal(SIGINT, SIG_DFL) == count_interrupt);
+    CHECK(draw_cube(renderer, &cube) == expected);  // no signal comes, as one has been counted
+    halflit_renderer_destroy(renderer);
+    free_cube(&cube);
+}
+
 static void test_execution(void) {
     Cube cube = make_cube();
     const uint64_t expected = draw_cube(NULL, &cube);
@@ -1555,6 +1599,7 @@ int main(void) {
     test_lights_of_the_caller();
     test_numbers_that_are_none();
     test_execution();
+    test_interrupt();
     printf("%d checks, %d failed\n", checks, failures);
     return failures == 0 && checks > 100 ? 0 : 1;
 }

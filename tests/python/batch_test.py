@@ -1,5 +1,8 @@
 """Many pictures at once are those that are drawn one by one."""
+import os
+import signal
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -39,6 +42,29 @@ class Batches(unittest.TestCase):
         with self.assertRaisesRegex(halflit.UsageError, "matrix"):
             next(batch)
         self.assertEqual(shares.count(1.0), 1)
+
+    def test_ctrl_c_ends_a_picture_that_is_drawn_ahead(self):
+        scene = halflit.Scene.demo()
+        scene.render((1600, 900), samples=16, threads=1)
+        start = time.perf_counter()
+        scene.render((1600, 900), samples=16, threads=1)
+        alone = time.perf_counter() - start
+        batch, sent = scene.render_batch(VIEWS, (1600, 900), ahead=2, samples=16, threads=1), []
+        next(batch)
+
+        def interrupt():
+            sent.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        timer = threading.Timer(0.2 * alone, interrupt)
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in batch:
+                pass
+        took = time.perf_counter() - sent[0]
+        timer.join()
+        print(f"Ctrl-C took effect after {1000 * took:.1f} ms, a frame takes {1000 * alone:.0f} ms")
+        self.assertLess(took, 0.4 * alone)
 
     def test_arrays_are_the_pictures(self):
         scene = halflit.Scene.demo()

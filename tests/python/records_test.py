@@ -201,7 +201,7 @@ class Refused(unittest.TestCase):
                 scene.add_mesh(CORNERS, FACES, colors=colors)
         for colors in (np.full((8, 3), 2.0), np.ones((8, 3), int), [[1, 0, 1]] * 8, np.full((8, 3), 200, np.uint8)):
             scene.add_mesh(CORNERS, FACES, colors=colors)
-        for value in ((255, 0, 0), (255.0, 0, 0), np.array((200, 30, 90)), np.array((0, 1, 0), bool), "red", "#12", (1, (2, 3)), None):
+        for value in ((255, 0, 0), (255.0, 0, 0), np.array((200, 30, 90)), np.array((0, 1, 0), bool), "reddish", "#12", (1, (2, 3)), None):
             with self.assertRaisesRegex(halflit.UsageError, "^base_color: expected"):
                 halflit.Material(base_color=value)
             with self.assertRaisesRegex(halflit.UsageError, "^background: expected"):

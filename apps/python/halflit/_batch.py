@@ -10,6 +10,7 @@ from typing import Any, Deque, Dict, Iterable, Iterator, List, Tuple, TypeVar
 import numpy as np
 
 from ._errors import UsageError
+from ._execution import draws_for_main
 from ._frame import draw_setup, frames, view_of
 from ._options import KNOWN, VIEW, check_names
 from ._picture import Picture
@@ -25,7 +26,7 @@ T = TypeVar("T")
 def drawn_ahead(pictures: Iterator[T], count: int) -> Iterator[T]:
     """The same pictures; up to `count` are drawn in a thread while the caller uses the last one."""
     nothing = object()
-    pool = ThreadPoolExecutor(1, "halflit")
+    pool = ThreadPoolExecutor(1, "halflit", draws_for_main)
     waiting: Deque[Future[Any]] = deque()
     try:
         while True:
@@ -108,7 +109,7 @@ def _drawn_meshes(meshes: Iterable[Any], size: Any, threads: int, material: Any,
         picture: Picture = own.drawer.draw(mesh)
         return picture
 
-    pool = ThreadPoolExecutor(threads, "halflit")
+    pool = ThreadPoolExecutor(threads, "halflit", draws_for_main)
     waiting: Deque[Future[Picture]] = deque()
     try:
         for mesh in meshes:

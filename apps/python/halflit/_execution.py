@@ -16,6 +16,11 @@ from ._options import EXECUTION
 _CALLING = threading.local()  # lock: of the scene whose frame runs a callback in this thread
 
 
+def draws_for_main() -> None:
+    """Called in a thread whose frames the main thread waits for: Ctrl-C ends them too."""
+    _CALLING.is_for_main = True
+
+
 class SceneLock:
     """One thread at a time uses a scene. The callbacks of its frame cannot: the frame would wait for itself."""
 
@@ -101,8 +106,9 @@ class Execution:
         self.struct = struct = _c.make("execution")
         self.raised: BaseException | None = None
         # With Python's own handler, Ctrl-C ends the frame: the handler runs as soon as the library returns.
-        in_main = threading.current_thread() is threading.main_thread()
-        self.interrupts = in_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        self.in_main = threading.current_thread() is threading.main_thread()
+        is_for_main = self.in_main or getattr(_CALLING, "is_for_main", False)
+        self.interrupts = is_for_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
         struct.stop_at_interrupt = self.interrupts
         self.key = (self.interrupts, *(options.get(name) for name in EXECUTION))
         for name, member in (("threads", "threads"), ("tile_size", "tile_size"), ("time_limit", "time_limit_s"), ("memory_limit",) * 2):
@@ -140,7 +146,7 @@ class Execution:
     @contextlib.contextmanager
     def _interrupts(self) -> Iterator[None]:
         """Ctrl-C ends the frame: an exception at the start of a callback would be lost in ctypes."""
-        if not self.interrupts:
+        if not (self.interrupts and self.in_main):
             yield
             return
 
