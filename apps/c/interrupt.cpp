@@ -4,6 +4,10 @@
 #include <csignal>
 #include <mutex>
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
 namespace halflit::c {
 namespace {
 
@@ -16,6 +20,7 @@ int watches = 0;
 #if defined(__unix__) || defined(__APPLE__)
 
 struct sigaction handler_before;
+pid_t process = 0;  ///< that `watches` counts in: a forked one has no frames of its parent's threads, but its handler
 
 void note(int signal, siginfo_t* info, void* context) {
     interrupted = true;
@@ -25,10 +30,14 @@ void note(int signal, siginfo_t* info, void* context) {
         handler_before.sa_handler(signal);
 }
 
+bool is_note(const struct sigaction& action) { return (action.sa_flags & SA_SIGINFO) != 0 && action.sa_sigaction == note; }
+
 void begin() {
+    struct sigaction now {};
+    if (sigaction(SIGINT, nullptr, &now) != 0 || is_note(now)) return;
+    handler_before = now;
     // Keeps the mask and the flags of the handler before, so that interrupted system calls end as the process expects.
-    if (sigaction(SIGINT, nullptr, &handler_before) != 0) return;
-    struct sigaction ours = handler_before;
+    struct sigaction ours = now;
     ours.sa_sigaction = note;
     ours.sa_flags = (handler_before.sa_flags | SA_SIGINFO) & ~static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &ours, nullptr);
@@ -37,13 +46,19 @@ void begin() {
 void end() {
     // A handler that was set meanwhile stays.
     struct sigaction now {};
-    if (sigaction(SIGINT, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == note)
-        sigaction(SIGINT, &handler_before, nullptr);
+    if (sigaction(SIGINT, nullptr, &now) == 0 && is_note(now)) sigaction(SIGINT, &handler_before, nullptr);
+}
+
+void forget_parent() {
+    if (process != getpid()) watches = 0;
+    process = getpid();
 }
 
 #else
 
 void (*handler_before)(int) = SIG_DFL;
+
+void forget_parent() {}
 
 void note(int signal) {
     std::signal(SIGINT, note);  // some systems reset it
@@ -64,6 +79,7 @@ void end() {
 InterruptWatch::InterruptWatch(bool is_wanted) : is_wanted_(is_wanted) {
     if (!is_wanted) return;
     const std::lock_guard lock(watching);
+    forget_parent();
     if (watches++ > 0) return;
     interrupted = false;
     begin();

@@ -1,6 +1,7 @@
 """Processes that are forked from one that draws."""
 import multiprocessing
 import os
+import signal
 import threading
 import time
 import unittest
@@ -75,6 +76,37 @@ class Fork(unittest.TestCase):
         refused = "another thread used this scene when the process was forked: make it anew in this process"
         self.assertIn(refused, said)
         self.assertLessEqual(said, {refused, self.drawn.render(64).pixel_hash})  # it may have been between two frames
+
+    def test_ctrl_c_stops_one_frame_of_the_child(self):
+        # The parent's main thread draws: the library's handler is in place when another thread forks.
+        said, ended = [], threading.Event()
+
+        def stopped_and_drawn():
+            scene = halflit.Scene.demo()
+            expected = scene.render(64).pixel_hash
+            for _ in range(2):
+                timer = threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT))
+                timer.start()
+                try:
+                    while True:
+                        scene.render((640, 360), samples=16)
+                except KeyboardInterrupt:
+                    timer.join()
+                if scene.render(64).pixel_hash != expected:
+                    return "wrong"
+            return "right"
+
+        def fork():
+            time.sleep(0.2)
+            said.append(in_child(stopped_and_drawn))
+            ended.set()
+
+        thread = threading.Thread(target=fork)
+        thread.start()
+        while not ended.is_set():
+            halflit.render("demo", (640, 360), samples=16)
+        thread.join()
+        self.assertEqual(said, ["right"])
 
     def test_pools_of_processes_draw(self):
         with multiprocessing.get_context("fork").Pool(2) as pool:
