@@ -3,6 +3,7 @@ import ast
 import ctypes
 import importlib.util
 import inspect
+import json
 import os
 import re
 import shutil
@@ -185,6 +186,18 @@ class Documentation(unittest.TestCase):
         self.assertEqual(len(errors), len(expected), said)
         for error, name in zip(errors, expected):
             self.assertIn(name, error)
+
+    @unittest.skipUnless(shutil.which("pyright"), "no pyright")
+    def test_pyright_finds_the_same_lines(self):
+        with tempfile.TemporaryDirectory() as folder:
+            user = os.path.join(folder, "user.py")
+            with open(user, "w", encoding="utf-8") as file:
+                file.write(TYPED)
+            package = os.path.join(APPS, "python")
+            command = ["pyright", "--outputjson", "--pythonpath", sys.executable, user, os.path.join(package, "halflit")]
+            done = subprocess.run(command, env={**os.environ, "PYTHONPATH": package}, stdout=subprocess.PIPE, check=False)
+        found = [(os.path.basename(one["file"]), one["range"]["start"]["line"]) for one in json.loads(done.stdout)["generalDiagnostics"]]
+        self.assertEqual(found, [("user.py", i) for i, line in enumerate(TYPED.splitlines()) if "# " in line])
 
     def test_the_readmes_program_draws(self):
         for path in (("README.md",), ("apps", "python", "README.md")):
