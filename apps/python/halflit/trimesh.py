@@ -13,13 +13,14 @@ from __future__ import annotations
 
 import importlib
 import math
-from typing import Any, Dict, Optional
+from typing import Any, Optional
 
 import numpy as np
 import numpy.typing as npt
 
 from ._camera import Camera
 from ._errors import UsageError
+from ._members import CameraMembers
 from ._scene import Scene
 from ._trimesh import add
 
@@ -72,11 +73,12 @@ def save_image(scene: Any, resolution: Any = None, background: Any = None, **opt
 
 def _camera(scene: Any) -> Camera:
     given = scene.camera
-    members: Dict[str, float] = {}
-    for member, name in (("near_z", "z_near"), ("far_z", "z_far")):
-        if getattr(given, name, None) is not None:
-            members[member] = float(getattr(given, name))
-    return Camera(np.asarray(scene.camera_transform, np.float64), fov_y_rad=math.radians(float(given.fov[1])), **members)
+    members: CameraMembers = {"fov_y_rad": math.radians(float(given.fov[1]))}
+    if getattr(given, "z_near", None) is not None:
+        members["near_z"] = float(given.z_near)
+    if getattr(given, "z_far", None) is not None:
+        members["far_z"] = float(given.z_far)
+    return Camera(np.asarray(scene.camera_transform, np.float64), **members)
 
 
 def _codes(background: Any) -> npt.NDArray[np.uint8]:

@@ -8,6 +8,7 @@ import numpy as np
 from halflit import _frame
 from halflit._camera import Camera
 from halflit._execution import Execution
+from halflit._members import CameraMembers
 from halflit._setup import request_of, set_up
 from halflit._target import Target
 
@@ -33,19 +34,19 @@ class View:
             raise ValueError(f"get_projection_matrix: expected 0 0 -1 0 or 0 0 0 1 as the last row, found {projection[3]}")
         if projection[0, 1] or projection[1, 0] or not (projection[0, 0] > 0 and projection[1, 1] > 0):
             raise ValueError("get_projection_matrix: expected a view that neither shears nor mirrors")
-        self.camera = Camera(rigid, orthographic=not is_perspective, **_range(projection, is_perspective, self.scale))
+        self.camera = Camera(rigid, **_lens(projection, is_perspective, self.scale))
         shift, sign, unit = (projection[:2, 2], 1, 1.0) if is_perspective else (projection[:2, 3], -1, self.scale)
         ends = [unit * (edge + sign * shift[axis]) / projection[axis, axis] for axis in (0, 1) for edge in (-1, 1)]
         self.camera.sides = (ends[0], ends[1], ends[2], ends[3])
 
 
-def _range(projection: Array, is_perspective: bool, scale: float) -> Dict[str, float]:
-    """Distances of the planes where the depth in OpenGL's cube is -1 and 1."""
+def _lens(projection: Array, is_perspective: bool, scale: float) -> CameraMembers:
+    """The kind of camera, and the distances of the planes where the depth in OpenGL's cube is -1 and 1."""
     factor, offset = float(projection[2, 2]), float(projection[2, 3])
     if is_perspective:
         far = 0.0 if factor >= -1 else offset / (factor + 1)
-        return {"near_z": max(offset / (factor - 1) * scale, 1e-6), "far_z": far * scale}
-    return {"near_z": (offset + 1) / factor * scale, "far_z": (offset - 1) / factor * scale}
+        return {"orthographic": False, "near_z": max(offset / (factor - 1) * scale, 1e-6), "far_z": far * scale}
+    return {"orthographic": True, "near_z": (offset + 1) / factor * scale, "far_z": (offset - 1) / factor * scale}
 
 
 class Pass:
