@@ -1,4 +1,5 @@
-// A cube from arrays, drawn into the program's own memory, moved, and drawn again.   halflit_cube OUT.png
+// The C interface
+// A cube from arrays is drawn into the program's own memory, moved, and drawn again.   halflit_cube OUT.png
 #include <halflit/halflit.h>
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-// The shortest useful program: a model file in, a picture out.   halflit_first_picture MODEL.glb OUT.png
+// A file in, a picture out
+// The shortest useful program: load, choose a view and light, render, write.   halflit_first_picture MODEL.glb OUT.png
 #include <halflit/auto_setup.hpp>
 #include <halflit/image.hpp>
 #include <halflit/model.hpp>

@@ -1,4 +1,5 @@
-// Geometry made by code: a terrain of hills, lit by a low sun.   halflit_geometry OUT.png
+// Geometry made by code
+// A terrain of hills, lit by a low sun.   halflit_geometry OUT.png
 #include <halflit/image.hpp>
 #include <halflit/renderer.hpp>
 

@@ -1,4 +1,5 @@
-// A host's own threads draw the frame, show each tile when it is finished, and may stop it.   halflit_host_threads OUT.png
+// A host's own threads
+// They draw the frame, show each tile when it is finished, and may stop it.   halflit_host_threads OUT.png
 #include <halflit/image.hpp>
 #include <halflit/renderer.hpp>
 

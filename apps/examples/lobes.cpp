@@ -1,4 +1,5 @@
-// Every named lobe on a sphere, under one light from the right.   halflit_lobes OUT.png
+// Every named lobe
+// Each lobe on a sphere, under one light from the right.   halflit_lobes OUT.png
 #include <halflit/image.hpp>
 #include <halflit/renderer.hpp>
 #include <halflit/shapes.hpp>

@@ -1,4 +1,5 @@
-// Sixty frames with moving parts: a scene is prepared once and told what moves.   halflit_moving_parts FOLDER
+// Sixty frames with moving parts
+// A scene is prepared once and told what moves.   halflit_moving_parts FOLDER
 #include <halflit/image.hpp>
 #include <halflit/renderer.hpp>
 #include <halflit/shapes.hpp>
