@@ -123,7 +123,8 @@ def check(kinds, update):
 
 def notebook(entry):
     """The script as a Jupyter notebook of format 4: a cell of text, a cell of code that shows the picture at its end."""
-    code = f"{entry.code}\nfrom IPython.display import Image\nImage({entry.picture!r})\n"
+    models = 'import os\n\nos.environ.setdefault("HALFLIT_EXAMPLES", ".")\n\n' if "HALFLIT_EXAMPLES" in entry.code else ""
+    code = f"{models}{entry.code}\nfrom IPython.display import Image\nImage({entry.picture!r})\n"
     cells = [
         {"cell_type": "markdown", "id": "text", "metadata": {}, "source": f"# {entry.title}\n{entry.sentence}"},
         {"cell_type": "code", "id": "code", "metadata": {}, "execution_count": None, "outputs": [], "source": code},
@@ -144,6 +145,7 @@ def page(entry, picture, printed):
 
 def pages(output):
     output.mkdir(parents=True, exist_ok=True)
+    shutil.copy(HERE.parent / "knot.glb", output)  # for the notebooks
     index, section, lacks = ["# Gallery"], "", {kind: lack(kind) for kind in LANGUAGES}
     for entry in read_table():
         own_test = entry.hash == NO_HASH
