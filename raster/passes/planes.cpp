@@ -1,6 +1,7 @@
 // The extra planes: depth, numbers and surface of what each pixel's first sample shows, and the share of its samples that show something.
 #include "raster/passes/picture_tile.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace halflit::raster {
@@ -25,40 +26,79 @@ void write2(const Plane<float>& plane, int x, int y, double a, double b) {
     plane.at(x, y)[1] = number(static_cast<float>(b));
 }
 
-void clear3(const Plane<float>& plane, int x, int y) {
-    if (plane)
-        for (int i = 0; i < 3; ++i) plane.at(x, y)[i] = 0.0f;
-}
-
 }  // namespace
 
 void PictureTile::write_planes(bool empty) {
     const Output& output = pass_.output;
-    const ViewGeometry& geometry = pass_.view.geometry;
-    for (int y_px = written_.y; y_px < written_.y + written_.height; ++y_px)
-        for (int x_px = written_.x; x_px < written_.x + written_.width; ++x_px) {
-            const int at = (y_px - rect_.y) * kTileStride + (x_px - rect_.x);
-            const std::uint32_t id = empty ? kNoTriangle : scratch_.buffers.triangle[0][at];
-            const bool seen = id != kNoTriangle;
-            if (output.depth)
-                *output.depth.at(x_px, y_px) = seen ? static_cast<float>(plan_.depth.distance(double{scratch_.buffers.depth[0][at]}))
-                                                    : std::numeric_limits<float>::infinity();
-            for (const Plane<float>* plane : {&output.normal, &output.shading_normal, &output.albedo, &output.position})
-                clear3(*plane, x_px, y_px);
-            if (output.barycentric || output.uv) {
-                const TrianglePoint point = seen ? geometry.point_at(id, x_px, y_px) : TrianglePoint{};
-                write2(output.barycentric, x_px, y_px, point.weight[1], point.weight[2]);
-                write2(output.uv, x_px, y_px, point.u, point.v);
+    for (int y_px = written_.y; y_px < written_.y + written_.height; ++y_px) {
+        const int x0 = written_.x, count = written_.width, at = (y_px - rect_.y) * kTileStride + (x0 - rect_.x);
+        const std::uint32_t* const id = scratch_.buffers.triangle[0] + at;
+        if (output.depth) {
+            float* const depth = output.depth.at(x0, y_px);
+            for (int i = 0; i < count; ++i)
+                depth[i] = !empty && id[i] != kNoTriangle
+                               ? static_cast<float>(plan_.depth.distance(double{scratch_.buffers.depth[0][at + i]}))
+                               : std::numeric_limits<float>::infinity();
+        }
+        for (const Plane<float>* plane : {&output.normal, &output.shading_normal, &output.albedo, &output.position})
+            if (*plane) std::fill_n(plane->at(x0, y_px), 3 * count, 0.0f);
+        if (output.lights) std::fill_n(output.lights.at(x0, y_px), count, 0u);
+        if (output.barycentric || output.uv)
+            for (int i = 0; i < count; ++i) {
+                const TrianglePoint point =
+                    !empty && id[i] != kNoTriangle ? pass_.view.geometry.point_at(id[i], x0 + i, y_px) : TrianglePoint{};
+                write2(output.barycentric, x0 + i, y_px, point.weight[1], point.weight[2]);
+                write2(output.uv, x0 + i, y_px, point.u, point.v);
             }
-            if (output.lights) *output.lights.at(x_px, y_px) = 0;
-            if (output.instance) *output.instance.at(x_px, y_px) = seen ? geometry.draw_of(geometry.record(id)).instance + 1 : 0;
-            if (output.triangle) *output.triangle.at(x_px, y_px) = seen ? geometry.triangle_of(id) + 1 : 0;
-            if (output.coverage) {
+        write_numbers(empty ? nullptr : id, x0, y_px, count);
+        if (output.coverage) {
+            float* const coverage = output.coverage.at(x0, y_px);
+            for (int i = 0; i < count; ++i) {
                 int covered = 0;
-                for (int s = 0; s < samples_ && !empty; ++s) covered += scratch_.buffers.triangle[s][at] != kNoTriangle ? 1 : 0;
-                *output.coverage.at(x_px, y_px) = static_cast<float>(covered) / static_cast<float>(samples_);
+                for (int s = 0; s < samples_ && !empty; ++s) covered += scratch_.buffers.triangle[s][at + i] != kNoTriangle ? 1 : 0;
+                coverage[i] = static_cast<float>(covered) / static_cast<float>(samples_);
             }
         }
+    }
+}
+
+void PictureTile::write_numbers(const std::uint32_t* id, int x_px, int y_px, int count) const {
+    const Output& output = pass_.output;
+    if (!output.instance && !output.triangle) return;
+    std::uint32_t *const instances = output.instance ? output.instance.at(x_px, y_px) : nullptr, *const triangles =
+                                                                                                     output.triangle
+                                                                                                         ? output.triangle.at(x_px, y_px)
+                                                                                                         : nullptr;
+    const ViewGeometry& geometry = pass_.view.geometry;
+    const Draw* const only = geometry.draws().size() == 1 ? geometry.draws().data() : nullptr;
+    for (int i = 0; i < count;) {
+        // Neighbours mostly show one triangle.
+        const std::uint32_t one = id != nullptr ? id[i] : kNoTriangle;
+        int end = i + 1;
+        while (end < count && (id == nullptr || id[end] == one)) ++end;
+        std::uint32_t instance = 0, triangle = 0;
+        if (one != kNoTriangle) {
+            const Draw& draw = only != nullptr ? *only : geometry.draw_of(geometry.record(one));
+            instance = draw.instance + 1;
+            if (triangles != nullptr) triangle = geometry.triangle_of(one, draw) + 1;
+        }
+        if (instances != nullptr) std::fill(instances + i, instances + end, instance);
+        if (triangles != nullptr) std::fill(triangles + i, triangles + end, triangle);
+        i = end;
+    }
+}
+
+void PictureTile::count_visible() {
+    for (int y = written_.y - rect_.y; y < written_.y - rect_.y + written_.height; ++y) {
+        const int at = y * kTileStride + (written_.x - rect_.x);
+        int visible = 0;
+        for (int i = at; i < at + written_.width; ++i) {
+            std::uint32_t all = scratch_.buffers.triangle[0][i];  // kNoTriangle if no sample shows one
+            for (int s = 1; s < samples_; ++s) all &= scratch_.buffers.triangle[s][i];
+            visible += all != kNoTriangle ? 1 : 0;
+        }
+        counts_.pixels_visible += static_cast<std::uint64_t>(visible);
+    }
 }
 
 void PictureTile::write_surface(FragmentList list) {

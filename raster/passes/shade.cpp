@@ -22,6 +22,10 @@ TileCounts PictureTile::draw() {
     if (shades_ && !empty) clear();
     if (pass_.output.has_planes()) write_planes(empty);
     if (empty) return counts_;
+    if (!shades_ && pass_.surface == nullptr && pass_.only == nullptr) {
+        count_visible();
+        return counts_;
+    }
     shade_visible();
     if (!shades_) return counts_;
     if (layered) blend_layers();

@@ -148,8 +148,9 @@ public:
     [[nodiscard]] std::int64_t submission_of(std::uint32_t id) const {
         return chunks_[chunk_of(id)]->numbers[id & ((1u << local_bits_) - 1u)];
     }
-    [[nodiscard]] std::uint32_t triangle_of(std::uint32_t id) const {
-        const Draw& draw = draw_of(record(id));
+    [[nodiscard]] std::uint32_t triangle_of(std::uint32_t id) const { return triangle_of(id, draw_of(record(id))); }
+    /// The same, of the triangle's own draw.
+    [[nodiscard]] std::uint32_t triangle_of(std::uint32_t id, const Draw& draw) const {
         return static_cast<std::uint32_t>((submission_of(id) - draw.triangle_base) >> (draw.quads() ? 1 : 0));
     }
     /// The point of a triangle at a pixel's centre, or beside it as interpolate.hpp has it. Only if `numbered`.
