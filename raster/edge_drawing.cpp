@@ -29,15 +29,17 @@ Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera&
     EdgeDrawing& drawing = *edge_drawing;
     const Region part = seen_region(plan.written, static_cast<double>(settings.edge_width), width, height);
     const std::size_t pixels = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
-    constexpr std::uint64_t kBytes = 200, kMostTriangles = 1u << 30;  // bytes a triangle: 170 where no vertex is shared; numbers are uint32
+    constexpr std::uint64_t kMostTriangles = 1u << 30;  // numbers are uint32
     if (scene.triangle_count() > kMostTriangles) return fail(ErrorCode::limit, "edges: expected at most 2^30 triangles over all instances");
-    drawing.memory.hold(executor.stop(), static_cast<std::size_t>(scene.triangle_count() * kBytes) + pixels * 8);
+    const auto hold = [&](std::uint64_t bytes) { drawing.memory.hold(executor.stop(), static_cast<std::size_t>(bytes + pixels * 8)); };
     if (!(drawing.of == scene.revision()) || drawing.angle_deg != settings.edge_angle_deg) {
         drawing.angle_deg = EdgeDrawing::kNotFound;  // until the search has ended
+        hold(ModelEdges::most_bytes(scene.scene()));
         drawing.edges.find(scene.scene(), static_cast<double>(settings.edge_angle_deg));
         drawing.of = scene.revision();
         drawing.angle_deg = settings.edge_angle_deg;
     }
+    hold(drawing.edges.bytes());
     drawing.instance.resize(pixels);
     drawing.triangle.resize(pixels);
     Settings plain;  // one sample, in the pixel's middle
@@ -57,7 +59,9 @@ Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera&
     const auto drawn = drawing.visible.render(scene, {}, camera, plain, target, silent, isa, {});
     if (!drawn) return tl::unexpected<Error>(drawn.error());
     const PixelTriangles seen{width, height, part, drawing.instance.data(), drawing.triangle.data()};
-    const std::vector<EdgeLine> lines = edge_lines(drawing.edges, camera, seen, plan.written, settings, executor);
+    hold(drawing.edges.bytes() + drawing.visible.executor.stop().memory());
+    MemoryShare of_lines;
+    const std::vector<EdgeLine> lines = edge_lines(drawing.edges, camera, seen, plan.written, settings, executor, of_lines);
     paint_lines(lines, settings, plan.written, output, shading::shade_kernels(isa), executor);
     return {};
 }

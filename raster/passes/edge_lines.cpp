@@ -258,32 +258,34 @@ private:
     bool hidden_too_;
 };
 
+/// Edges that end at a place.
+struct PlaceEnds {
+    static constexpr std::uint32_t kNone = ~0u;
+    std::uint32_t count = 0, edge[2] = {kNone, kNone};  ///< the first two, by their numbers in the picture
+};
+
 /// Joins edges that meet in pairs to polylines, so that dashes go on from one to the next.
 void join_edges(const ModelEdges& edges, std::vector<PlacedEdge>& placed) {
-    constexpr std::uint32_t kNone = ~0u;
-    struct Ends {
-        std::uint32_t count = 0, edge[2] = {kNone, kNone};
-    };
-    std::vector<Ends> ends(edges.places().size());
+    std::vector<PlaceEnds> ends(edges.places().size());
     const auto place_of = [&](std::uint32_t i, bool last) {
         const ModelEdge& edge = edges.edges()[placed[i].edge];
         return last ? edge.to : edge.from;
     };
     for (std::uint32_t i = 0; i < placed.size(); ++i)
         for (const bool last : {false, true}) {
-            Ends& e = ends[place_of(i, last)];
+            PlaceEnds& e = ends[place_of(i, last)];
             if (e.count < 2) e.edge[e.count] = i;
             ++e.count;
         }
     std::vector<bool> done(placed.size(), false);
     const auto follow = [&](std::uint32_t i, bool backward) {
-        for (double length = 0.0; i != kNone && !done[i];) {
+        for (double length = 0.0; i != PlaceEnds::kNone && !done[i];) {
             done[i] = true;
             placed[i].begin_px = length;
             placed[i].backward = backward;
             length += placed[i].length_px;
             const std::uint32_t place = place_of(i, !backward);
-            const Ends& e = ends[place];
+            const PlaceEnds& e = ends[place];
             if (e.count != 2) return;
             i = e.edge[0] == i ? e.edge[1] : e.edge[0];
             backward = place_of(i, false) != place;
@@ -295,15 +297,31 @@ void join_edges(const ModelEdges& edges, std::vector<PlacedEdge>& placed) {
     for (std::uint32_t i = 0; i < placed.size(); ++i) follow(i, false);  // rings
 }
 
-/// Calls body(i, found) for each i below count, on all threads, and appends what was found to `all`, in the order of i.
-template <std::size_t kChunk, class T, class Body>
-void each_chunk(std::size_t count, std::vector<T>& all, Executor& executor, const Body& body) {
-    std::vector<std::vector<T>> found((count + kChunk - 1) / kChunk);
+/// Calls body(i, found) for each i below count, on all threads. Returns what was found, in the order of i; `memory` holds it.
+template <class T, std::size_t kChunk, class Body>
+std::vector<T> each_chunk(std::size_t count, Executor& executor, MemoryShare& memory, const Body& body) {
+    struct Found {
+        std::vector<T> items;
+        MemoryShare memory;
+    };
+    std::vector<Found> found((count + kChunk - 1) / kChunk);
     executor.run(static_cast<int>(found.size()), [&](int chunk) {
+        Found& of = found[static_cast<std::size_t>(chunk)];
         const std::size_t begin = static_cast<std::size_t>(chunk) * kChunk;
-        for (std::size_t i = begin; i < std::min(count, begin + kChunk); ++i) body(i, found[static_cast<std::size_t>(chunk)]);
+        for (std::size_t i = begin; i < std::min(count, begin + kChunk); ++i) body(i, of.items);
+        of.memory.hold(executor.stop(), of.items.capacity() * sizeof(T));
     });
-    for (const std::vector<T>& some : found) all.insert(all.end(), some.begin(), some.end());
+    std::size_t sum = 0;
+    for (const Found& some : found) sum += some.items.size();
+    memory.hold(executor.stop(), sum * sizeof(T));
+    std::vector<T> all;
+    all.reserve(sum);
+    for (Found& some : found) {
+        all.insert(all.end(), some.items.begin(), some.items.end());
+        some.items = {};
+        some.memory.hold(executor.stop(), 0);
+    }
+    return all;
 }
 
 }  // namespace
@@ -315,11 +333,11 @@ Region seen_region(const Region& drawn, double edge_width, int width, int height
 }
 
 std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const PixelTriangles& seen, const Region& drawn,
-                                 const Settings& settings, Executor& executor) {
+                                 const Settings& settings, Executor& executor, MemoryShare& memory) {
     const EdgeView view(edges, camera, seen);
     const bool hidden_too = settings.hidden_edges == HiddenEdges::dashed;
-    std::vector<PlacedEdge> placed;
-    each_chunk<2048>(edges.edges().size(), placed, executor, [&](std::size_t i, std::vector<PlacedEdge>& found) {
+    MemoryShare of_placed;
+    auto placed = each_chunk<PlacedEdge, 2048>(edges.edges().size(), executor, of_placed, [&](std::size_t i, auto& found) {
         const ModelEdge& edge = edges.edges()[i];
         PlacedEdge at{static_cast<std::uint32_t>(i), {}, {}, 0.0};
         if (!view.is_line(edge, settings.edges) || (!hidden_too && view.turned_away(edge)) || !view.place(edge, at.a, at.b)) return;
@@ -327,12 +345,15 @@ std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, 
         at.length_px = std::sqrt(dx * dx + dy * dy);
         if (at.length_px < 1e6) found.push_back(at);  // NaN where coordinates overflow, or meet the eye
     });
-    if (hidden_too) join_edges(edges, placed);
+    if (hidden_too) {
+        MemoryShare of_ends;
+        of_ends.hold(executor.stop(), edges.places().size() * sizeof(PlaceEnds) + placed.size() / 8);
+        join_edges(edges, placed);
+    }
 
     const EdgeSplitter splitter(view, edges, drawn, settings);
-    std::vector<EdgeLine> lines;
-    each_chunk<64>(placed.size(), lines, executor, [&](std::size_t i, std::vector<EdgeLine>& split) { splitter.split(placed[i], split); });
-    return lines;
+    return each_chunk<EdgeLine, 64>(placed.size(), executor, memory,
+                                    [&](std::size_t i, std::vector<EdgeLine>& split) { splitter.split(placed[i], split); });
 }
 
 }  // namespace halflit::raster

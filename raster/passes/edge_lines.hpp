@@ -33,8 +33,8 @@ struct PixelTriangles {
 /// computed in double, nearer by more than 1e-5 of the model's size: lines win over surfaces that they lie on. Such triangles are looked
 /// for among those that are seen in the point's pixel and in the eight around, and over the surface from these; so what is less than a
 /// pixel wide may hide nothing. The triangles of the edge itself never hide it. Where a line begins to be hidden is found to a sixteenth of
-/// a pixel.
+/// a pixel. memory: holds what the lines take of the executor's memory; what finding them takes is held until the call ends.
 [[nodiscard]] std::vector<EdgeLine> edge_lines(const ModelEdges& edges, const Camera& camera, const PixelTriangles& seen,
-                                               const Region& drawn, const Settings& settings, Executor& executor);
+                                               const Region& drawn, const Settings& settings, Executor& executor, MemoryShare& memory);
 
 }  // namespace halflit::raster

@@ -79,7 +79,7 @@ private:
 class LineBands {
 public:
     static constexpr int kRows = 32;
-    LineBands(std::span<const EdgeLine> lines, double width, const Region& region)
+    LineBands(std::span<const EdgeLine> lines, double width, const Region& region, StopSignal& stop)
         : first_(static_cast<std::size_t>((region.height + kRows - 1) / kRows) + 1, 0) {
         const double reach = 0.5 * width + 2.0;
         const auto each = [&](const auto& visit) {
@@ -94,6 +94,7 @@ public:
         };
         each([&](std::size_t band, std::uint32_t) { ++first_[band]; });
         std::partial_sum(first_.begin(), first_.end(), first_.begin());  // the ends; filling from there leaves the beginnings
+        memory_.hold(stop, first_.back() * sizeof(std::uint32_t));
         lines_.resize(first_.back());
         each([&](std::size_t band, std::uint32_t i) { lines_[--first_[band]] = i; });
     }
@@ -106,6 +107,7 @@ public:
 private:
     std::vector<std::size_t> first_;  ///< of each band in lines_, and the end
     std::vector<std::uint32_t> lines_;
+    MemoryShare memory_;
 };
 
 /// Lays an opaque colour over a pixel of the caller's memory, by a share of 0 to 255.
@@ -154,7 +156,7 @@ private:
 void paint_lines(std::span<const EdgeLine> lines, const Settings& settings, const Region& region, const Output& output,
                  const shading::ShadeKernels& shade, Executor& executor) {
     const OverPixel over(settings.edge_color_linear, output, shade);
-    const LineBands bands(lines, settings.edge_width, region);
+    const LineBands bands(lines, settings.edge_width, region, executor.stop());
     executor.run(bands.count(), [&](int band) {
         const int y0 = region.y + band * LineBands::kRows, height = std::min(LineBands::kRows, region.y + region.height - y0);
         CoverRows cover(region.x, y0, region.width, height);

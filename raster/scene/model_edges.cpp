@@ -20,6 +20,10 @@ Vec3d normal_of(const WeldedSurface& surface, std::uint32_t face) {
     return size > 0.0 ? n * (1.0 / size) : Vec3d{};
 }
 
+bool has_edges(const Scene& scene, const Instance& instance) {
+    return counts_for_views(scene, instance) && triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]) > 0;
+}
+
 /// The triangles along one edge, with their directions and normals.
 class EdgeFaces {
 public:
@@ -72,9 +76,9 @@ private:
 
 }  // namespace
 
-void ModelEdges::add_surface(const WeldedSurface& surface, double least_cosine) {
+void ModelEdges::add_surface(WeldedSurface& surface, double least_cosine) {
+    surface.end();
     const auto first_place = static_cast<std::uint32_t>(places_.size());
-    places_.insert(places_.end(), surface.places().begin(), surface.places().end());
     const auto first_face = static_cast<std::uint32_t>(corners_.size() / 3);
     corners_.resize(corners_.size() + 3 * std::size_t{surface.triangles()});
     neighbours_.resize(corners_.size(), kNone);
@@ -93,20 +97,63 @@ void ModelEdges::add_surface(const WeldedSurface& surface, double least_cosine) 
         edges_.push_back(
             {first_place + low, first_place + uses[0].high(), {face(uses.front()), face(faces.partner())}, faces.kind(), faces.turned()});
     });
+    if (places_.empty())
+        places_ = surface.take_places();
+    else
+        places_.insert(places_.end(), surface.places().begin(), surface.places().end());
+}
+
+std::uint64_t ModelEdges::most_bytes(const Scene& scene) {
+    // Lists that grow have at most twice the room that they need, and the old one beside the new one while they are copied.
+    struct Sums {
+        std::uint64_t triangles = 0, vertices = 0, meshes = 0;
+        /// A place has at most 32 bytes in the table and 48 in the list; 24 more while either grows. Corners are reserved for one mesh.
+        [[nodiscard]] std::uint64_t to_weld() const { return (104 + 4) * vertices + (12 + (meshes > 1 ? 36 : 12)) * triangles; }
+        /// Normals and uses of corners, besides what is left of the welding.
+        [[nodiscard]] std::uint64_t to_list() const { return (48 + 4) * vertices + (8 + (meshes > 1 ? 24 : 12) + 24 + 24) * triangles; }
+    };
+    Sums all, surface;
+    std::uint64_t weld = 0, list = 0, surfaces = 0;
+    const Instance* before = nullptr;
+    for (const Instance& instance : scene.instances) {
+        if (!has_edges(scene, instance)) continue;
+        if (before == nullptr || !(before->world_from_object == instance.world_from_object)) surface = {}, ++surfaces;
+        before = &instance;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        for (Sums* const sums : {&all, &surface}) {
+            sums->triangles += triangles_of(mesh), ++sums->meshes;
+            sums->vertices += std::min(mesh.positions.size(), mesh.indices.size());
+        }
+        weld = std::max(weld, surface.to_weld()), list = std::max(list, surface.to_list());
+    }
+    // Edges have room for 1.5 a triangle, as a closed surface has, and grow once where there are more.
+    constexpr std::uint64_t kEdges = 3 * sizeof(ModelEdge) / 2, kMoreEdges = 3 * sizeof(ModelEdge);
+    constexpr std::uint64_t kNumbers = 2 * 3 * sizeof(std::uint32_t) + 1;  // corners, neighbours, sides
+    return (kNumbers + kEdges) * all.triangles + (surfaces > 1 ? 72 * all.vertices : 0) + 12 * scene.instances.size() +
+           std::max(weld, list + kMoreEdges * all.triangles);
+}
+
+std::size_t ModelEdges::bytes() const {
+    return places_.capacity() * sizeof(Vec3d) +
+           (corners_.capacity() + neighbours_.capacity() + first_face_.capacity()) * sizeof(std::uint32_t) + single_sided_.capacity() / 8 +
+           edges_.capacity() * sizeof(ModelEdge);
 }
 
 void ModelEdges::find(const Scene& scene, double crease_deg) {
     *this = {};
     const double least_cosine = sin_cos(crease_deg * (kPi / 180.0)).cos;
-    const auto counts = [&](const Instance& instance) {
-        return counts_for_views(scene, instance) && triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]) > 0;
-    };
+    std::size_t triangles = 0;
+    for (const Instance& instance : scene.instances)
+        if (has_edges(scene, instance)) triangles += triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+    corners_.reserve(3 * triangles), neighbours_.reserve(3 * triangles);
+    edges_.reserve(3 * triangles / 2);
     WeldedSurface surface;
     const Mat4* place = nullptr;
     std::uint32_t faces = 0;
     for (const Instance& instance : scene.instances) {
-        first_face_.push_back(counts(instance) ? faces : kNone);
-        if (!counts(instance)) continue;
+        const bool counts = has_edges(scene, instance);
+        first_face_.push_back(counts ? faces : kNone);
+        if (!counts) continue;
         const Material* const material = material_of(scene, instance);
         if (place != nullptr && !(*place == instance.world_from_object)) {
             add_surface(surface, least_cosine);

@@ -5,6 +5,7 @@
 #include "sh/place_table.hpp"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace halflit::raster {
@@ -15,6 +16,11 @@ public:
     /// instance are turned, as they are for drawing: their outside stays outside. Lines and points are ignored. Linear time, and none for
     /// vertices that no triangle uses. Requires: indices in range, and fewer than 2^32 of them over all calls.
     void add(const Mesh& mesh, const Mat4& world_from_object);
+
+    /// Frees the memory that only add() needs, which may not be called any more.
+    void end() { table_ = {}; }
+    /// The places, which the surface has no longer.
+    [[nodiscard]] std::vector<Vec3d> take_places() { return std::move(places_); }
 
     /// Different positions, world space, finite in float32.
     [[nodiscard]] const std::vector<Vec3d>& places() const { return places_; }

@@ -3,13 +3,27 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <new>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace {
 
 std::atomic<long> live{0}, made_so_far{0}, first_failure{0}, last_failure{0};
+
+std::atomic<std::int64_t> live_bytes{0}, peak_bytes{0};
+
+std::int64_t bytes_of([[maybe_unused]] void* memory) {
+#if defined(__GLIBC__)
+    return static_cast<std::int64_t>(malloc_usable_size(memory));
+#else
+    return 0;
+#endif
+}
 
 void* allocate(std::size_t size, std::size_t alignment) {
     const long number = ++made_so_far;
@@ -19,6 +33,9 @@ void* allocate(std::size_t size, std::size_t alignment) {
     void* const memory = alignment > alignof(std::max_align_t) ? std::aligned_alloc(alignment, room) : std::malloc(room);
     if (memory == nullptr) throw std::bad_alloc();
     ++live;
+    const std::int64_t bytes = live_bytes += bytes_of(memory);
+    for (std::int64_t peak = peak_bytes; bytes > peak && !peak_bytes.compare_exchange_weak(peak, bytes);) {
+    }
     return memory;
 }
 
@@ -33,6 +50,7 @@ void* allocate_or_null(std::size_t size) noexcept {
 void release(void* memory) {
     if (memory == nullptr) return;
     --live;
+    live_bytes -= bytes_of(memory);
     std::free(memory);
 }
 
@@ -59,6 +77,9 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { rel
 namespace halflit::test {
 
 long live_allocations() { return live; }
+
+PeakOfBytes::PeakOfBytes() : before_(live_bytes) { peak_bytes = before_; }
+std::int64_t PeakOfBytes::bytes() const { return peak_bytes - before_; }
 
 AllocationFault::AllocationFault(long at, bool all_later) {
     made_so_far = 0;

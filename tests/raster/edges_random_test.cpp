@@ -68,7 +68,8 @@ Shares compare_lines(const Scene& scene, const Camera& camera, const Settings& s
     ModelEdges edges;
     edges.find(scene, double{settings.edge_angle_deg});
     const Region all{0, 0, kWidth, kHeight};
-    const auto lines = edge_lines(edges, camera, {kWidth, kHeight, all, instance.data(), triangle.data()}, all, settings, executor);
+    MemoryShare memory;
+    const auto lines = edge_lines(edges, camera, {kWidth, kHeight, all, instance.data(), triangle.data()}, all, settings, executor, memory);
 
     Shares shares;
     const EdgeReference reference(scene);
