@@ -17,9 +17,10 @@ struct FarthestPoint {
 };
 
 /// Finds it by dividing triangles. The distance to a triangle is a convex function, so on a triangle `s` the distance to the other surface
-/// is at most the largest of the distances of the corners of `s` to any one of its triangles. Triangles whose bound is within `accuracy` of
-/// the largest distance that was measured are left; others are measured at their corners and middle, and cut into four. Ends at
-/// kMostDistancePoints points with a wider bound. So the result depends on the surfaces alone, not on time.
+/// is at most the largest of the distances of the corners of `s` to any one of its triangles. Triangles whose bound is below the largest
+/// distance that was measured are left; others are measured at their middle. Those whose bound is still above that distance by more than
+/// `accuracy` are cut into four, and so on. Ends at kMostDistancePoints points with a wider bound. So the result depends on the surfaces
+/// alone, not on time or threads.
 /// Requires: neither surface is empty.
 [[nodiscard]] FarthestPoint farthest_point(const Surface& from, const Surface& to, double accuracy);
 

@@ -1,5 +1,6 @@
 #include "apps/halflit/compare/model_change.hpp"
 
+#include "apps/io/files/in_parts.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
@@ -44,18 +45,46 @@ struct MeasuredPart {
     Measures measures;
 };
 
-Result<std::vector<MeasuredPart>> measured_parts(const RenderJob& job) {
+/// whole: measures of all visible instances.
+Result<std::vector<MeasuredPart>> measured_parts(const RenderJob& job, const Measures& whole) {
+    const Scene& scene = job.scene();
+    const bool is_one =
+        std::count_if(scene.instances.begin(), scene.instances.end(), [](const Instance& instance) { return instance.visible; }) == 1;
     std::vector<MeasuredPart> out;
     for (const Part& part : job.source.parts->list()) {
         check_time();
         std::vector<int> seen;
         for (const int instance : part.instances)
-            if (raster::counts_for_views(job.scene(), job.scene().instances[static_cast<std::size_t>(instance)])) seen.push_back(instance);
-        const auto measures = measure_geometry(job.scene(), seen);
+            if (raster::counts_for_views(scene, scene.instances[static_cast<std::size_t>(instance)])) seen.push_back(instance);
+        if (seen.empty()) continue;
+        const auto measures = is_one ? Result<Measures>(whole) : measure_geometry(scene, seen);
         if (!measures) return tl::unexpected(measures.error());
         if (measures->triangles > 0) out.push_back({part.name, *measures});
     }
     return out;
+}
+
+/// What is found in one model alone.
+struct MeasuredModel {
+    Result<Measures> whole;
+    Result<std::vector<MeasuredPart>> parts;
+    std::optional<Surface> surface;  ///< empty: not asked for, or the model could not be measured
+};
+
+MeasuredModel measured_model(const RenderJob& job, bool with_surface) {
+    MeasuredModel out{measure_geometry(job.scene()), {}, {}};
+    if (!out.whole) return out;
+    out.parts = measured_parts(job, *out.whole);
+    if (with_surface) out.surface.emplace(job.scene());
+    return out;
+}
+
+/// Calls work(0) and work(1), side by side if the job may have two threads.
+template <class Work>
+void for_both(const RenderJob& job, const Work& work) {
+    io::detail::in_parts(2, io::detail::parts_of(2, 1, job.execution.threads), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) work(i);
+    });
 }
 
 /// Compares a pair that has one name. tolerance: in the drawn world.
@@ -113,11 +142,12 @@ FarthestPoint in_file(const ModelPair& pair, FarthestPoint found) {
     return found;
 }
 
-std::optional<SurfaceDistance> distance_between(const ModelPair& pair) {
-    const Surface a(pair.a.scene()), b(pair.b.scene());
+std::optional<SurfaceDistance> distance_between(const ModelPair& pair, const Surface& a, const Surface& b) {
     if (a.empty() || b.empty()) return std::nullopt;
     const double accuracy = kDistanceAccuracy * pair.diagonal();
-    return SurfaceDistance{in_file(pair, farthest_point(a, b, accuracy)), in_file(pair, farthest_point(b, a, accuracy))};
+    FarthestPoint found[2];
+    for_both(pair.a, [&](std::size_t i) { found[i] = i == 0 ? farthest_point(a, b, accuracy) : farthest_point(b, a, accuracy); });
+    return SurfaceDistance{in_file(pair, found[0]), in_file(pair, found[1])};
 }
 
 }  // namespace
@@ -174,16 +204,18 @@ Result<ModelChange> compare_models(const ModelPair& pair) {
     ModelChange out;
     const double scale = pair.scale();
     out.tolerance = kSameShare * pair.diagonal() / scale;
-    const auto a = measure_geometry(pair.a.scene()), b = measure_geometry(pair.b.scene());
-    if (!a) return tl::unexpected(a.error());
-    if (!b) return tl::unexpected(b.error());
-    out.a = numbers_of(pair.a, *a, scale, pair.a.source.placement.up), out.b = numbers_of(pair.b, *b, scale, pair.a.source.placement.up);
-    const auto parts_a = measured_parts(pair.a), parts_b = measured_parts(pair.b);
-    if (!parts_a) return tl::unexpected(parts_a.error());
-    if (!parts_b) return tl::unexpected(parts_b.error());
-    out.parts = changed_parts(*parts_a, *parts_b, out.tolerance * scale, scale, pair.a.source.placement.up);
     out.too_many = std::max(drawn_triangles(pair.a.scene()), drawn_triangles(pair.b.scene())) > kMostComparedTriangles;
-    if (!out.too_many) out.distance = distance_between(pair);
+    std::optional<MeasuredModel> measured[2];
+    for_both(pair.a, [&](std::size_t i) { measured[i] = measured_model(i == 0 ? pair.a : pair.b, !out.too_many); });
+    const MeasuredModel &a = *measured[0], &b = *measured[1];
+    for (const MeasuredModel* const model : {&a, &b}) {
+        if (!model->whole) return tl::unexpected(model->whole.error());
+        if (!model->parts) return tl::unexpected(model->parts.error());
+    }
+    const UpAxis up = pair.a.source.placement.up;
+    out.a = numbers_of(pair.a, *a.whole, scale, up), out.b = numbers_of(pair.b, *b.whole, scale, up);
+    out.parts = changed_parts(*a.parts, *b.parts, out.tolerance * scale, scale, up);
+    if (!out.too_many) out.distance = distance_between(pair, *a.surface, *b.surface);
     return out;
 }
 

@@ -14,21 +14,14 @@
 namespace halflit::cli {
 namespace {
 
-constexpr std::uint32_t kLeafTriangles = 4;
+constexpr std::size_t kLeafTriangles = 4;
 /// The hierarchy halves the triangles, so 2^32 of them have 32 levels.
 constexpr std::size_t kMostLevels = 40;
 
-double coordinate(Vec3d p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
-Vec3d lower(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3d upper(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-
-/// Three times the centre.
-Vec3d middle(const Triangle& t) { return (t.a + t.b) + t.c; }
-
-double box_distance_squared(Vec3d low, Vec3d high, Vec3d p) {
-    const Vec3d outside = upper(upper(low - p, p - high), Vec3d{});
-    return dot(outside, outside);
+/// The largest float that is at most x.
+float rounded_down(double x) {
+    const auto f = static_cast<float>(x);
+    return double{f} > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
 }
 
 bool is_finite(Vec3d p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
@@ -53,59 +46,107 @@ Surface::Surface(const Scene& scene) {
             if (is_finite(placed.a) && is_finite(placed.b) && is_finite(placed.c)) triangles_.push_back(placed);
         }
     }
-    if (!triangles_.empty()) split(0, static_cast<std::uint32_t>(triangles_.size()));
+    if (!triangles_.empty()) sort();
 }
 
-void Surface::split(std::uint32_t first, std::uint32_t count) {
-    check_time();
-    const std::size_t at = nodes_.size();
-    nodes_.push_back({triangles_[first].a, triangles_[first].a, first, count, 0});
-    Vec3d low = middle(triangles_[first]), high = low;
-    for (std::uint32_t i = first; i < first + count; ++i) {
+void Surface::sort() {
+    std::vector<Sorted> sorted;
+    sorted.reserve(triangles_.size());
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
         const Triangle& t = triangles_[i];
-        nodes_[at].low = lower(nodes_[at].low, lower(t.a, lower(t.b, t.c)));
-        nodes_[at].high = upper(nodes_[at].high, upper(t.a, upper(t.b, t.c)));
-        low = lower(low, middle(t)), high = upper(high, middle(t));
+        sorted.push_back({to_float((t.a + t.b) + t.c), i});
     }
-    if (count <= kLeafTriangles) return;
-    const Vec3d size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto begin = triangles_.begin() + first;
-    std::nth_element(begin, begin + count / 2, begin + count,
-                     [axis](const Triangle& s, const Triangle& t) { return coordinate(middle(s), axis) < coordinate(middle(t), axis); });
-    nodes_[at].count = 0;
-    split(first, count / 2);
-    nodes_[at].second = static_cast<std::uint32_t>(nodes_.size());
-    split(first + count / 2, count - count / 2);
+    nodes_.emplace_back();
+    split(0, sorted, 0);
+    std::vector<Triangle> in_order;
+    in_order.reserve(triangles_.size());
+    for (const Sorted& one : sorted) in_order.push_back(triangles_[one.triangle]);
+    triangles_ = std::move(in_order);
 }
 
-Surface::Nearest Surface::nearest(Vec3d point) const {
-    double best = std::numeric_limits<double>::infinity();
-    std::uint32_t found = 0;
+void Surface::enclose(std::uint32_t node, std::size_t side, std::span<const Sorted> sorted) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    double low[3] = {kFar, kFar, kFar}, high[3] = {-kFar, -kFar, -kFar};
+    for (const Sorted& one : sorted) {
+        const Triangle& t = triangles_[one.triangle];
+        for (const Vec3d& p : {t.a, t.b, t.c}) {
+            low[0] = std::min(low[0], p.x), low[1] = std::min(low[1], p.y), low[2] = std::min(low[2], p.z);
+            high[0] = std::max(high[0], p.x), high[1] = std::max(high[1], p.y), high[2] = std::max(high[2], p.z);
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+        nodes_[node].low[k][side] = rounded_down(low[k]), nodes_[node].high[k][side] = -rounded_down(-high[k]);
+}
+
+void Surface::split(std::uint32_t node, std::span<Sorted> sorted, std::uint32_t first) {
+    check_time();
+    Vec3f low = sorted.front().middle, high = low;
+    for (const Sorted& one : sorted) {
+        const Vec3f p = one.middle;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const Vec3f size = high - low;
+    float Vec3f::*const axis = size.x >= size.y && size.x >= size.z ? &Vec3f::x : size.y >= size.z ? &Vec3f::y : &Vec3f::z;
+    const std::size_t half = sorted.size() / 2;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(half), sorted.end(),
+                     [axis](const Sorted& a, const Sorted& b) {
+                         return a.middle.*axis < b.middle.*axis || (a.middle.*axis == b.middle.*axis && a.triangle < b.triangle);
+                     });
+    const std::span<Sorted> sides[2] = {sorted.first(half), sorted.subspan(half)};
+    for (std::size_t side = 0; side < 2; ++side) {
+        const std::span<Sorted> part = sides[side];
+        enclose(node, side, part);
+        const auto begin = static_cast<std::uint32_t>(first + (side == 0 ? 0 : half));
+        const bool is_leaf = part.size() <= kLeafTriangles;
+        nodes_[node].count[side] = static_cast<std::uint8_t>(is_leaf ? part.size() : 0);
+        nodes_[node].begin[side] = begin;
+        if (is_leaf) {  // one order, whatever the library's nth_element does
+            std::sort(part.begin(), part.end(), [](const Sorted& a, const Sorted& b) { return a.triangle < b.triangle; });
+            continue;
+        }
+        const auto next = static_cast<std::uint32_t>(nodes_.size());
+        nodes_[node].begin[side] = next;
+        nodes_.emplace_back();
+        split(next, part, begin);
+    }
+}
+
+Surface::Nearest Surface::nearest(Vec3d point, std::uint32_t guess, double enough) const {
+    const auto squared_to = [&](std::uint32_t i) {
+        const Triangle& t = triangles_[i];
+        return raster::triangle_distance_squared(t.a - point, t.b - point, t.c - point);
+    };
+    const double p[3] = {point.x, point.y, point.z};
+    const double enough_squared = enough > 0.0 ? enough * enough : 0.0;
+    double best = squared_to(guess);
+    std::uint32_t found = guess;
     struct Waiting {
-        std::uint32_t node;
         double squared;
+        std::uint32_t begin, count;
     };
     Waiting stack[2 * kMostLevels];
     std::size_t waiting = 0;
-    stack[waiting++] = {0, 0.0};
-    const auto to_box = [&](std::uint32_t node) { return box_distance_squared(nodes_[node].low, nodes_[node].high, point); };
-    while (waiting > 0) {
+    stack[waiting++] = {0.0, 0, 0};
+    while (waiting > 0 && best > enough_squared) {
         const Waiting next = stack[--waiting];
         if (!(next.squared < best)) continue;
-        const Node& node = nodes_[next.node];
-        if (node.count > 0) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                const Triangle& t = triangles_[i];
-                const double squared = raster::triangle_distance_squared(t.a - point, t.b - point, t.c - point);
-                if (squared < best) best = squared, found = i;
-            }
+        if (next.count > 0) {
+            for (std::uint32_t i = next.begin; i < next.begin + next.count; ++i)
+                if (const double squared = squared_to(i); squared < best) best = squared, found = i;
             continue;
         }
-        const Waiting one{next.node + 1, to_box(next.node + 1)}, other{node.second, to_box(node.second)};
-        const bool one_first = one.squared <= other.squared;
-        stack[waiting++] = one_first ? other : one;
-        stack[waiting++] = one_first ? one : other;
+        const Node& node = nodes_[next.begin];
+        double squared[2] = {0.0, 0.0};
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t side = 0; side < 2; ++side) {
+                const double below = double{node.low[k][side]} - p[k], above = p[k] - double{node.high[k][side]};
+                const double larger = below > above ? below : above, outside = larger > 0.0 ? larger : 0.0;
+                squared[side] += outside * outside;
+            }
+        const std::size_t near = squared[0] <= squared[1] ? 0 : 1;
+        for (const std::size_t side : {1 - near, near})  // the nearer one is taken first
+            if (squared[side] < best) stack[waiting++] = {squared[side], node.begin[side], node.count[side]};
     }
     return {std::sqrt(best), found};
 }

@@ -5,6 +5,7 @@
 #include "halflit/scene.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace halflit::cli {
@@ -26,20 +27,30 @@ public:
         double distance = 0;
         std::uint32_t triangle = 0;  ///< index into triangles()
     };
-    /// Requires: there are triangles.
-    [[nodiscard]] Nearest nearest(Vec3d point) const;
+    /// The nearest triangle. The search begins at `guess`, an index into triangles(), and is faster the nearer that is. It ends at the
+    /// first triangle that it finds within `enough`. Requires: there are triangles.
+    [[nodiscard]] Nearest nearest(Vec3d point, std::uint32_t guess = 0, double enough = 0.0) const;
 
     /// In an order of their own.
     [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
     [[nodiscard]] bool empty() const { return triangles_.empty(); }
 
 private:
-    /// A box of the hierarchy. Its children are the next node and `second`; a leaf has `count` triangles from `first` on.
-    struct Node {
-        Vec3d low, high;
-        std::uint32_t first = 0, count = 0, second = 0;
+    /// Two boxes of the hierarchy, in one line of the cache. A box has `count` triangles from `begin` on; 0: what is in the node `begin`.
+    /// Boxes are rounded outwards.
+    struct alignas(64) Node {
+        float low[3][2], high[3][2];
+        std::uint32_t begin[2];
+        std::uint8_t count[2];
     };
-    void split(std::uint32_t first, std::uint32_t count);
+    /// A triangle that is to be sorted, by three times its middle.
+    struct Sorted {
+        Vec3f middle;
+        std::uint32_t triangle;
+    };
+    void sort();
+    void split(std::uint32_t node, std::span<Sorted> sorted, std::uint32_t first);
+    void enclose(std::uint32_t node, std::size_t side, std::span<const Sorted> sorted);
 
     std::vector<Triangle> triangles_;
     std::vector<Node> nodes_;
