@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <sstream>
 
@@ -206,4 +207,35 @@ TEST_CASE("look: --projection is refused for views that make no drawing", "[cli]
         CHECK(refused.err.find("--projection: expected views of a drawing") != std::string::npos);
     }
     CHECK(run({"look", "sphere:100", "--size", "64", "--json", "-", "--projection", "third"}).code == 0);
+}
+
+TEST_CASE("look: a folder gets a picture of each view, which the report names", "[cli][look]") {
+    const TemporaryFolder folder;
+    write_obj(folder.file("box.obj"), box_mesh({0, 0, 0}, {3, 2, 1}));
+    const std::string out = folder.file("views");
+    // A name that ends in "/" makes the folder; one that is there is filled.
+    for (const std::string& name : {out + "/", out}) {
+        const Outcome outcome = run({"look", folder.file("box.obj"), "-o", name, "--json", folder.file("a.json"), "--certify", "4",
+                                     "--size", "160x120", "--view", "front,30,20"});
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        const Json report = Json::parse(contents(folder.file("a.json")), nullptr, false);
+        REQUIRE(report.is_object());
+        REQUIRE(report["views"].size() > 2);  // the box has six sides
+        CHECK(report["views"][0]["file"] == out + "/01_front.png");
+        CHECK(report["views"][1]["file"] == out + "/02_30,20.png");
+        for (const Json& view : report["views"]) {
+            const Picture picture = read_picture(contents(view["file"].get<std::string>()));
+            CHECK(picture.width == 160);
+            CHECK(picture.height == 120);
+        }
+        std::size_t files = 0;
+        for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(out)) ++files;
+        CHECK(files == report["views"].size());
+    }
+    // A sheet is one file, which no view has of its own.
+    CHECK(run({"look", folder.file("box.obj"), "-o", folder.file("a.png"), "--json", folder.file("b.json"), "--size", "160x120"}).code ==
+          0);
+    CHECK(!Json::parse(contents(folder.file("b.json")), nullptr, false)["views"][0].contains("file"));
+    CHECK(run({"look", folder.file("box.obj"), "-o", folder.file("box.obj") + "/"}).code == 4);
 }

@@ -1,6 +1,7 @@
 #include "tests/look/certified.hpp"
 #include "tests/support/solids.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -161,5 +162,56 @@ TEST_CASE("certificate: a closed body within another is hidden, and seen once th
         INFO(open);
         CHECK((one.certificate.count(TriangleStatus::hidden, inside) == inner.indices.size() / 3) == !open);
         CHECK((one.certificate.count(TriangleStatus::seen, inside) > 0) == open);
+    }
+}
+
+TEST_CASE("certificate: every number of threads gives the same one", "[look]") {
+    for (const std::uint64_t seed : {3, 4, 5}) {
+        const Certificate expected = certified(random_model(seed), 160, 128, 4, 24, 1).certificate;
+        for (const int threads : {2, 3, 8}) {
+            const Certificate found = certified(random_model(seed), 160, 128, 4, 24, threads).certificate;
+            INFO("model " << seed << ", threads " << threads);
+            REQUIRE(found.triangles.size() == expected.triangles.size());
+            std::size_t other = 0;
+            for (std::size_t i = 0; i < found.triangles.size(); ++i) {
+                const TriangleView &a = found.triangles[i], &b = expected.triangles[i];
+                other += a.status != b.status || a.view != b.view || a.pixels != b.pixels || a.directions != b.directions ? 1 : 0;
+            }
+            CHECK(other == 0);
+            REQUIRE(found.looked.size() == expected.looked.size());
+            for (std::size_t i = 0; i < found.looked.size(); ++i) CHECK(found.looked[i].name == expected.looked[i].name);
+            REQUIRE(found.shots.size() == expected.shots.size());
+            for (std::size_t i = 0; i < found.shots.size(); ++i) {
+                CHECK(found.shots[i].name == expected.shots[i].name);
+                CHECK(found.shots[i].instance == expected.shots[i].instance);
+                CHECK(found.shots[i].triangle == expected.shots[i].triangle);
+            }
+        }
+    }
+}
+
+TEST_CASE("certificate: what is called seen with less is shown by a picture that is kept", "[look]") {
+    // Few pictures, so that others show more.
+    for (const std::uint64_t seed : {3, 4, 5, 6}) {
+        const Certified one = certified(random_model(seed), 160, 128, 12, 5);
+        std::vector<std::int32_t> most(one.triangles.size(), 0);
+        for (const ViewShot& shot : one.certificate.shots) {
+            std::vector<std::int32_t> pixels(one.triangles.size(), 0);
+            for (std::size_t i = 0; i < shot.instance.size(); ++i)
+                if (shot.instance[i] > 0) ++pixels[one.certificate.first[shot.instance[i] - 1] + shot.triangle[i] - 1];
+            for (std::size_t i = 0; i < most.size(); ++i) most[i] = std::max(most[i], pixels[i]);
+        }
+        std::size_t less = 0, unknown = 0;
+        for (std::size_t i = 0; i < most.size(); ++i) {
+            const TriangleView& claim = one.certificate.triangles[i];
+            if (claim.status == TriangleStatus::not_drawn || claim.status == TriangleStatus::no_area) continue;
+            INFO("model " << seed << ", triangle " << i);
+            CHECK(claim.pixels == most[i]);
+            CHECK((claim.status == TriangleStatus::seen) == (most[i] >= 12));
+            CHECK((claim.status == TriangleStatus::less) == (most[i] > 0 && most[i] < 12));
+            less += claim.status == TriangleStatus::less ? 1 : 0, unknown += claim.status == TriangleStatus::unknown ? 1 : 0;
+        }
+        CHECK(less > 0);
+        CHECK(unknown > 0);
     }
 }

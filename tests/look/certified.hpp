@@ -17,8 +17,9 @@ struct Certified {
 };
 
 /// Certified with the views front, right, top and iso.
-inline Certified certified(Scene scene, int width, int height, int least, std::size_t most_views = 24) {
+inline Certified certified(Scene scene, int width, int height, int least, std::size_t most_views = 24, int threads = 0) {
     Certified out{scene_job(std::move(scene), width, height), {}, {}};
+    out.job.execution.threads = threads;
     Renderer renderer;
     std::vector<cli::ViewShot> given;
     for (const NamedView& view : kNamedViews) {

@@ -4,14 +4,17 @@
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/program/timeout.hpp"
 #include "apps/io/files/atomic_file.hpp"
+#include "apps/io/files/in_parts.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>
 
 #include <memory>
+#include <utility>
 
 namespace halflit::cli {
 namespace {
@@ -27,13 +30,33 @@ std::vector<std::string> inputs_of(const LookResult& result, const LookOptions& 
     return inputs;
 }
 
+/// Writes the pictures of all views into their folder.
+Result<void> write_pictures(const LookFiles& options, const std::vector<ViewPicture>& pictures) {
+    if (const auto made = make_folder(options.folder); !made) return made;
+    std::vector<Result<std::vector<std::uint8_t>>> files(pictures.size());
+    const std::size_t parts = io::detail::parts_of(pictures.size(), 1, options.execution.threads);
+    io::detail::in_parts(pictures.size(), parts, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) files[i] = encode_image(pictures[i].picture, OutputFormat::png);
+    });
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        if (!files[i]) return tl::unexpected(files[i].error());
+        if (const auto written = io::write_file(pictures[i].path, *files[i]); !written) return written;
+    }
+    print_note(fmt::format("wrote {} pictures into {}", pictures.size(), options.folder));
+    return {};
+}
+
 Result<int> look_and_write(const LookFiles& options) {
     const auto result = look(options);
     if (!result) return tl::unexpected(result.error());
-    for (const std::string& path : {options.output, options.json})
+    std::vector<std::string> outputs{options.output, options.json};
+    for (const ViewPicture& picture : result->pictures) outputs.push_back(picture.path);
+    for (const std::string& path : outputs)
         for (const std::string& input : inputs_of(*result, options))
             if (!path.empty() && path != "-" && same_file(path, input))
                 return fail(ErrorCode::io, path + ": is read for the sheet and is not overwritten");
+    if (!result->pictures.empty())
+        if (const auto written = write_pictures(options, result->pictures); !written) return tl::unexpected(written.error());
     if (result->sheet) {
         const auto format = output_format_of(options.output);
         if (!format) return tl::unexpected(format.error());
@@ -50,7 +73,8 @@ Result<int> look_and_write(const LookFiles& options) {
 }
 
 Result<int> run_look(LookFiles options) {
-    if (options.output.empty() && options.json.empty()) {
+    if (options.output.ends_with('/') || is_folder(options.output)) options.folder = std::exchange(options.output, {});
+    if (options.output.empty() && options.folder.empty() && options.json.empty()) {
         const std::string stem = stem_of(options.scene);
         options.output = (options.scene == "-" || stem.empty() ? "halflit" : stem.substr(0, stem.find(':'))) + ".look.png";
     }
@@ -73,8 +97,9 @@ Command look_command() {
     auto groups = look_flags(o);
     std::vector<Flag>& sheet = groups.front().flags;
     sheet.insert(sheet.begin(),
-                 {{"-o,--output", "FILE",
-                   "The sheet: a .png, .jpg, .bmp, .tga or .webp file; - for PNG on standard output (default: SCENE's name.look.png)",
+                 {{"-o,--output", "FILE|FOLDER/",
+                   "The sheet: a .png, .jpg, .bmp, .tga or .webp file; - for PNG on standard output (default: SCENE's name.look.png). A "
+                   "folder: a PNG file of each view instead",
                    read_text(o.output)},
                   {"--json", "FILE|-", "Cameras, and what each view shows of each part, as JSON; without -o, no sheet is drawn",
                    read_text(o.json)}});

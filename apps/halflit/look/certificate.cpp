@@ -1,5 +1,7 @@
 #include "apps/halflit/look/certificate.hpp"
 
+#include "apps/halflit/look/triangle_tally.hpp"
+#include "apps/io/files/in_parts.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/placed_point.hpp"
 #include "raster/scene/welded_surface.hpp"
@@ -11,7 +13,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 namespace halflit::cli {
@@ -58,11 +62,11 @@ struct PlacedTriangle {
 class Certifier {
 public:
     Certifier(RenderJob& job, Renderer& renderer, std::vector<ViewShot> given, const CertificateLimits& limits)
-        : job_(job), renderer_(renderer), limits_(limits), given_(given.size()) {
+        : job_(job), renderer_(renderer), limits_(limits), given_(given.size()), numbers_(job.scene()), tally_(numbers_) {
         found_.least = limits.least_pixels;
         place_triangles();
         for (ViewShot& shot : given) {
-            const Tally tally = count(shot);
+            const Tally tally = tally_.count(shot);
             keep(std::move(shot), tally);
         }
     }
@@ -78,27 +82,31 @@ public:
     }
 
 private:
-    /// Pixels that show a triangle.
-    struct Seen {
-        std::uint32_t triangle;  ///< index into Certificate::triangles
-        std::int32_t pixels;
-    };
-    using Tally = std::vector<Seen>;
+    using Tally = std::vector<SeenTriangle>;
     /// A direction that was looked from.
     struct Around {
         GivenView view;
         Camera camera;
         Vec3d eye, right, up, towards;  ///< towards: the viewer
         double half_width, half_height;
-        double pixel_area;  ///< square units of the world
-        Tally tally;
+        double pixel_area;         ///< square units of the world
+        Tally tally;               ///< of triangles that the view shows with enough pixels; at least those that are wanted
+        std::size_t most_new = 0;  ///< upper bound on new_triangles()
         bool used = false;
+    };
+    /// What a thread draws directions with.
+    struct Looker {
+        explicit Looker(const TriangleNumbers& numbers) : tally(numbers) {}
+        Renderer renderer;
+        ViewShot shot;
+        TriangleTally tally;
     };
 
     void place_triangles() {
         const Scene& scene = job_.scene();
+        found_.first = numbers_.first;
+        placed_.reserve(numbers_.count), found_.triangles.reserve(numbers_.count);
         for (const Instance& instance : scene.instances) {
-            found_.first.push_back(found_.triangles.size());
             const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
             const Material* const material = raster::material_of(scene, instance);
             const bool clear = material != nullptr && material->is_layer();
@@ -124,34 +132,13 @@ private:
                     triangle.status = TriangleStatus::no_area;
             }
         }
-        counts_.resize(found_.triangles.size(), 0);
         most_.resize(found_.triangles.size(), 0);
-    }
-
-    Tally count(const ViewShot& shot) {
-        std::vector<std::uint32_t> touched;
-        for (std::size_t i = 0; i < shot.instance.size(); ++i) {
-            if (shot.instance[i] == 0) continue;
-            const std::size_t at = found_.first[shot.instance[i] - 1] + shot.triangle[i] - 1;
-            if (at >= counts_.size() ||
-                job_.scene().meshes[static_cast<std::size_t>(job_.scene().instances[shot.instance[i] - 1].mesh)].topology !=
-                    Topology::triangles)
-                continue;
-            if (counts_[at]++ == 0) touched.push_back(static_cast<std::uint32_t>(at));
-        }
-        Tally tally;
-        tally.reserve(touched.size());
-        for (const std::uint32_t at : touched) {
-            tally.push_back({at, counts_[at]});
-            counts_[at] = 0;
-        }
-        return tally;
     }
 
     /// Takes a picture into the certificate.
     void keep(ViewShot shot, const Tally& tally) {
         const auto view = static_cast<int>(found_.shots.size());
-        for (const Seen& seen : tally) {
+        for (const SeenTriangle& seen : tally) {
             TriangleView& triangle = found_.triangles[seen.triangle];
             if (seen.pixels > triangle.pixels) triangle.pixels = seen.pixels, triangle.view = view;
         }
@@ -162,10 +149,7 @@ private:
         const TriangleView& one = found_.triangles[triangle];
         return one.status == TriangleStatus::unknown && one.pixels < limits_.least_pixels;
     }
-    [[nodiscard]] std::size_t new_triangles(const Tally& tally) const {
-        return static_cast<std::size_t>(std::count_if(
-            tally.begin(), tally.end(), [&](const Seen& seen) { return seen.pixels >= limits_.least_pixels && is_wanted(seen.triangle); }));
-    }
+    [[nodiscard]] bool is_new(const SeenTriangle& seen) const { return seen.pixels >= limits_.least_pixels && is_wanted(seen.triangle); }
     /// A triangle about which further directions say nothing new: it has been seen with enough pixels, or with as many as it can have.
     [[nodiscard]] bool is_settled(std::size_t triangle) const {
         if (!is_wanted(triangle) || most_[triangle] >= limits_.least_pixels) return true;
@@ -186,20 +170,49 @@ private:
             sides.push_back({.azimuth_deg = view.azimuth_deg + front_deg, .elevation_deg = view.elevation_deg, .orthographic = true});
         }
         const std::vector<Camera> cameras = frame_each(job_.scene(), job_.film.bounds, aspect, sides);
-        for (std::size_t v = 0; v < views.size() && !open.empty(); ++v) {
-            const GivenView& view = views[v];
-            const Camera& camera = cameras[v];
-            auto shot = draw_shot(job_, renderer_, view.name, camera, {.picture = false, .first_sample = false});
-            if (!shot) return tl::unexpected(shot.error());
-            const double pixel = pixel_size(camera, job_.width, job_.height, 1.0), half_height = camera.half_height;
-            const Mat4& m = camera.world_from_camera;
-            around_.push_back({view, camera, axis(m, 3), axis(m, 0), axis(m, 1), axis(m, 2), half_height * double{aspect}, half_height,
-                               pixel * pixel, count(*shot)});
-            finest_pixel_ = std::min(finest_pixel_, pixel * pixel);
-            for (const Seen& seen : around_.back().tally) most_[seen.triangle] = std::max(most_[seen.triangle], seen.pixels);
-            std::erase_if(open, [&](std::uint32_t i) { return is_settled(i); });
+        // Frames are small: threads that draw one each wait less than threads that share one.
+        constexpr std::size_t kMostLookers = 16, kMostTriangles = std::size_t{1} << 20;
+        const int threads = job_.execution.threads;
+        const std::size_t lookers =
+            numbers_.count <= kMostTriangles ? io::detail::parts_of(std::min(views.size(), kMostLookers), 1, threads) : 1;
+        std::deque<Looker> team;  // a Looker stays where it is
+        for (std::size_t i = 0; i < lookers; ++i) team.emplace_back(numbers_);
+        // Directions that were drawn in vain after the last one that counts are dropped, so that the result is that of one thread.
+        const std::size_t batch = lookers > 1 ? 2 * lookers : 1;
+        for (std::size_t begin = 0; begin < views.size() && !open.empty(); begin += batch) {
+            const std::size_t end = std::min(begin + batch, views.size());
+            std::vector<Result<Tally>> tallies(end - begin);
+            std::atomic<std::size_t> next{begin};
+            io::detail::in_parts(lookers, lookers, [&](std::size_t looker, std::size_t, std::size_t) {
+                for (std::size_t v = next++; v < end; v = next++)
+                    tallies[v - begin] = looked(team[looker], cameras[v], lookers > 1 ? 1 : threads);
+            });
+            for (std::size_t v = begin; v < end && !open.empty(); ++v) {
+                if (!tallies[v - begin]) return tl::unexpected(tallies[v - begin].error());
+                take(views[v], cameras[v], std::move(*tallies[v - begin]));
+                std::erase_if(open, [&](std::uint32_t i) { return is_settled(i); });
+            }
         }
         return {};
+    }
+
+    [[nodiscard]] Result<Tally> looked(Looker& looker, const Camera& camera, int threads) const {
+        if (const auto drawn = draw_numbers(job_, looker.renderer, camera, threads, looker.shot); !drawn)
+            return tl::unexpected(drawn.error());
+        return looker.tally.count(looker.shot);
+    }
+
+    /// Takes a direction that was looked from into account.
+    void take(const GivenView& view, const Camera& camera, Tally tally) {
+        for (const SeenTriangle& seen : tally) most_[seen.triangle] = std::max(most_[seen.triangle], seen.pixels);
+        std::erase_if(tally, [&](const SeenTriangle& seen) { return !is_new(seen); });
+        const double pixel = pixel_size(camera, job_.width, job_.height, 1.0), half_height = camera.half_height;
+        const double aspect = static_cast<float>(job_.width) / static_cast<float>(job_.height);
+        const Mat4& m = camera.world_from_camera;
+        const std::size_t count = tally.size();
+        around_.push_back({view, camera, axis(m, 3), axis(m, 0), axis(m, 1), axis(m, 2), half_height * aspect, half_height, pixel * pixel,
+                           std::move(tally), count});
+        finest_pixel_ = std::min(finest_pixel_, pixel * pixel);
     }
 
     /// Draws a view of the whole model again, and keeps it.
@@ -207,7 +220,7 @@ private:
         around.used = true;
         auto shot = draw_shot(job_, renderer_, around.view.name, around.camera, limits_.kept);
         if (!shot) return tl::unexpected(shot.error());
-        const Tally tally = count(*shot);
+        const Tally tally = tally_.count(*shot);
         keep(std::move(*shot), tally);
         return {};
     }
@@ -217,8 +230,11 @@ private:
             Around* best = nullptr;
             std::size_t most = 0;
             for (Around& around : around_) {
-                const std::size_t shown = around.used ? 0 : new_triangles(around.tally);
-                if (shown > most) most = shown, best = &around;
+                if (around.used || around.most_new <= most) continue;
+                // What is not new now will not be later.
+                std::erase_if(around.tally, [&](const SeenTriangle& seen) { return !is_new(seen); });
+                around.most_new = around.tally.size();
+                if (around.most_new > most) most = around.most_new, best = &around;
             }
             if (best == nullptr) return {};
             if (const auto added = add(*best); !added) return added;
@@ -300,8 +316,8 @@ private:
             const std::string name = fmt::format("detail {}", found_.shots.size() + 1);
             auto shot = draw_shot(job_, renderer_, name, camera, {.picture = false});
             if (!shot) return tl::unexpected(shot.error());
-            const Tally tally = count(*shot);
-            if (new_triangles(tally) == 0) continue;
+            const Tally tally = tally_.count(*shot);
+            if (std::none_of(tally.begin(), tally.end(), [&](const SeenTriangle& seen) { return is_new(seen); })) continue;
             if (limits_.kept.picture) shot = draw_shot(job_, renderer_, name, camera, limits_.kept);
             if (!shot) return tl::unexpected(shot.error());
             shot->detail = true;
@@ -327,17 +343,16 @@ private:
             triangle.status = TriangleStatus::less;
         else if (is_hidden(i))
             triangle.status = TriangleStatus::hidden, triangle.directions = directions_of(i);
-        else if (most_[i] > 0)
-            triangle.status = TriangleStatus::less;  // in a picture that was not kept
     }
 
     RenderJob& job_;
     Renderer& renderer_;
     CertificateLimits limits_;
     std::size_t given_;
+    TriangleNumbers numbers_;
+    TriangleTally tally_;
     Certificate found_;
     std::vector<PlacedTriangle> placed_;
-    std::vector<std::int32_t> counts_;  ///< of the picture that is counted
     std::vector<Around> around_;
     std::vector<std::int32_t> most_;  ///< pixels that show each triangle in the best of the directions
     double finest_pixel_ = 1e300;     ///< least area of a pixel in a direction

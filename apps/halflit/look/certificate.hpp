@@ -12,9 +12,10 @@ namespace halflit::cli {
 
 enum class TriangleStatus : std::uint8_t {
     seen,      ///< a picture shows it with at least Certificate::least pixels
-    less,      ///< some picture that was looked at shows it, with fewer pixels
+    less,      ///< pictures show it, all with fewer pixels
     hidden,    ///< in none of the directions from which it would cover at least Certificate::least pixels did a pixel show it
-    unknown,   ///< no pixel showed it, and it would cover too few from every direction to be called hidden
+    unknown,   ///< no picture shows it, and it is not known to be hidden: it was seen in a view that is not among the pictures, or would
+               ///< cover too few pixels from every direction
     no_area,   ///< two of its corners are one place, or all lie on a line
     not_drawn  ///< of an instance that is not shown, is transparent, or only takes shadow
 };
@@ -56,7 +57,9 @@ struct CertificateLimits {
 
 /// Looks for pictures until every triangle is seen. given: the pictures that are there in any case. Others are added as long as they show
 /// more: views of the whole model by parallel rays from up to 126 directions, the one that shows most new triangles first, then close-ups
-/// of what is left. The search ends early if no further direction can say anything new; what is hidden needs all of them.
+/// of what is left. The search ends early if no further direction can say anything new; what is hidden needs all of them. The result is the
+/// same for every number of threads. Each thread draws directions of its own where the model has at most 2^20 triangles, at most 16
+/// threads.
 [[nodiscard]] Result<Certificate> certify(RenderJob& job, Renderer& renderer, std::vector<ViewShot> given, const CertificateLimits& limits);
 
 }  // namespace halflit::cli

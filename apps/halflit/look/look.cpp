@@ -3,6 +3,7 @@
 #include "apps/halflit/look/certificate.hpp"
 #include "apps/halflit/look/look_json.hpp"
 #include "apps/halflit/look/part_views.hpp"
+#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/report/measures_json.hpp"
 #include "sh/time_limit.hpp"
@@ -61,11 +62,11 @@ std::future<Result<Json>> measure_beside(const RenderJob& job) {
 }
 
 /// The views that the flags name; one of the file's camera or the flags' otherwise.
-Result<std::vector<ViewShot>> draw_views(RenderJob& job, Renderer& renderer, const LookOptions& options) {
+Result<std::vector<ViewShot>> draw_views(RenderJob& job, Renderer& renderer, const LookOptions& options, const ShotPlanes& planes) {
     std::vector<ViewShot> shots;
     const bool own = job.film.views.empty();
     for (std::size_t i = 0; i < std::max<std::size_t>(job.film.views.size(), 1); ++i) {
-        auto shot = draw_shot(job, renderer, own ? "view" : options.film.views[i].name, own ? job.camera : job.film.views[i], {});
+        auto shot = draw_shot(job, renderer, own ? "view" : options.film.views[i].name, own ? job.camera : job.film.views[i], planes);
         if (!shot) return tl::unexpected(shot.error());
         shots.push_back(std::move(*shot));
     }
@@ -82,6 +83,31 @@ std::vector<std::string> faults_of(const RenderJob& job, std::span<const ViewSho
         faults.push_back(fmt::format("part {}{}{} is in no view", number.get<std::size_t>(), part.name.empty() ? "" : ", ", part.name));
     }
     return faults;
+}
+
+/// The file of a view in the folder.
+Result<std::string> view_path(const std::string& folder, const std::string& view, std::size_t index) {
+    auto name = fill_pattern("{view:02}_{view}.png", "{view} or {view:02}", [&](std::string_view word) -> std::optional<std::string> {
+        if (word != "view") return digits_for(word, "view", static_cast<std::int64_t>(index) + 1);
+        std::string text = view;
+        std::replace(text.begin(), text.end(), ' ', '_');
+        return text;
+    });
+    if (!name) return name;
+    return path_in(folder, *name);
+}
+
+/// Writes the pictures' files into the report too.
+Result<std::vector<ViewPicture>> view_pictures(const std::string& folder, const RenderJob& job, std::span<const ViewShot> shots,
+                                               std::span<const ViewContent> contents, Json& report) {
+    std::vector<ViewPicture> pictures;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        auto path = view_path(folder, shots[i].name, i);
+        if (!path) return tl::unexpected(path.error());
+        report["views"][i]["file"] = *path;
+        pictures.push_back({std::move(*path), marked_view(job, shots[i], contents[i])});
+    }
+    return pictures;
 }
 
 std::string certificate_line(const Certificate& certificate, std::size_t views) {
@@ -149,14 +175,15 @@ Result<LookResult> look(const LookOptions& given) {
     for (const std::string& warning : job.warnings) print_warning(warning);
     auto measuring = measure_beside(job);
     Renderer renderer;
-    auto views = draw_views(job, renderer, options);
+    const ShotPlanes planes{.picture = options.sheet || !options.folder.empty()};
+    auto views = draw_views(job, renderer, options, planes);
     if (!views) return tl::unexpected(views.error());
     std::vector<ViewShot>& shots = *views;
     Renderer alone;  // keeps what the pictures' renderer has
     std::optional<Certificate> certificate;
     if (options.certify > 0) {
         // Views are added until each triangle is seen.
-        auto certified = certify(job, renderer, std::move(shots), {options.certify, static_cast<std::size_t>(options.most_views), {}});
+        auto certified = certify(job, renderer, std::move(shots), {options.certify, static_cast<std::size_t>(options.most_views), planes});
         if (!certified) return tl::unexpected(certified.error());
         certificate = std::move(*certified);
         shots = std::move(certificate->shots);
@@ -176,6 +203,11 @@ Result<LookResult> look(const LookOptions& given) {
         auto sheet = look_sheet(job, shots, *contents, options.projection.value_or(Projection::third_angle), look_footer(job, *measures));
         if (!sheet) return tl::unexpected(sheet.error());
         result.sheet = std::move(*sheet);
+    }
+    if (!options.folder.empty()) {
+        auto pictures = view_pictures(options.folder, job, shots, *contents, result.report);
+        if (!pictures) return tl::unexpected(pictures.error());
+        result.pictures = std::move(*pictures);
     }
     if (job.source.file) result.inputs = job.source.file->files;
     result.faults = faults_of(job, shots, *contents, result.report);

@@ -76,7 +76,7 @@ bool is_free(const ViewShot& shot, const PixelBox& box, const PixelBox& other) {
     return true;
 }
 
-SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
+Image marked_picture(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
     Canvas canvas(shot.picture);
     const int width = shot.width(), height = shot.height();
     const PixelBox dimension = draw_dimensions(job, shot, content.box, unit, canvas);
@@ -97,9 +97,19 @@ SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent&
         if (is_free(shot, {static_cast<int>(left) - 4, height - inset - kHigh, width, height}, dimension))
             draw_scale_bar(canvas, {left, static_cast<double>(height - inset)}, kLongest * width, units, unit.name, kMarks);
     }
+    return canvas.take();
+}
+
+ShownUnit unit_of(const RenderJob& job) {
+    const Bounds& bounds = job.film.bounds;
+    const Vec3d size = bounds.empty ? Vec3d{} : to_double(bounds.max) - to_double(bounds.min);
+    return shown_unit(job.source, std::max({size.x, size.y, size.z}));
+}
+
+SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
     std::string note;
     for (const std::string& fault : content.faults.names()) note += (note.empty() ? "" : ", ") + fault;
-    return {shot.name, note, canvas.take(), {}};
+    return {shot.name, note, marked_picture(job, shot, content, unit), {}};
 }
 
 /// Place of a side in a drawing of third angle, in cells from the front: to the right and down. Whatever is on the right of the front is
@@ -155,11 +165,13 @@ ShownUnit shown_unit(const SceneSource& source, double largest) {
     return name == "m" && largest * scale < kSmall ? ShownUnit{"mm", 1000.0 * scale} : ShownUnit{name, scale};
 }
 
+Image marked_view(const RenderJob& job, const ViewShot& shot, const ViewContent& content) {
+    return marked_picture(job, shot, content, unit_of(job));
+}
+
 Result<Image> look_sheet(const RenderJob& job, std::span<const ViewShot> shots, std::span<const ViewContent> contents,
                          Projection projection, const std::string& footer) {
-    const Bounds& bounds = job.film.bounds;
-    const Vec3d size = bounds.empty ? Vec3d{} : to_double(bounds.max) - to_double(bounds.min);
-    const ShownUnit unit = shown_unit(job.source, std::max({size.x, size.y, size.z}));
+    const ShownUnit unit = unit_of(job);
     std::vector<SheetCell> cells;
     for (std::size_t i = 0; i < shots.size(); ++i) cells.push_back(cell_of(job, shots[i], contents[i], unit));
     std::vector<std::string> names;

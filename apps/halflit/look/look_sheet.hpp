@@ -20,6 +20,9 @@ struct ShownUnit {
 /// How views lie beside each other: third angle has the view from above above the front, first angle below it.
 enum class Projection : std::uint8_t { third_angle, first_angle };
 
+/// The shot's picture with dimensions, axes and scale.
+[[nodiscard]] Image marked_view(const RenderJob& job, const ViewShot& shot, const ViewContent& content);
+
 /// False if views of these names make no drawing: then they come row by row. Sides make one with the front, each of them once.
 [[nodiscard]] bool make_drawing(std::span<const std::string> names);
 

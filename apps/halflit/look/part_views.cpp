@@ -53,19 +53,21 @@ ViewContent content_of(const RenderJob& job, const ViewShot& shot) {
     content.parts.resize(parts.list().size());
     for (std::size_t i = 0; i < content.parts.size(); ++i) content.parts[i].part = static_cast<int>(i);
     const Scene& scene = job.scene();
-    std::size_t at = 0;
-    for (int y = 0; y < shot.height(); ++y)
-        for (int x = 0; x < shot.width(); ++x, ++at) {
-            const std::uint32_t instance = shot.instance[at];
+    for (int y = 0; y < shot.height(); ++y) {
+        const std::uint32_t* const row = shot.instance.data() + static_cast<std::ptrdiff_t>(y) * shot.width();
+        for (int x = 0, end = 0; x < shot.width(); x = end) {
+            const std::uint32_t instance = row[x];
+            for (end = x + 1; end < shot.width() && row[end] == instance;) ++end;
             if (instance == 0 || raster::catches_shadows(scene, scene.instances[instance - 1])) continue;
-            ++content.pixels;
-            content.box.add(x, y);
+            content.pixels += end - x;
+            content.box.add(x, y), content.box.add(end - 1, y);
             const int part = parts.of_instance(instance - 1);
             if (part < 0) continue;
             PartInView& seen = content.parts[static_cast<std::size_t>(part)];
-            ++seen.pixels;
-            seen.box.add(x, y);
+            seen.pixels += end - x;
+            seen.box.add(x, y), seen.box.add(end - 1, y);
         }
+    }
     return content;
 }
 

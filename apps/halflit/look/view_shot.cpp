@@ -24,11 +24,26 @@ Result<ViewShot> draw_shot(RenderJob& job, Renderer& renderer, std::string name,
     shot.triangle.resize(pixels), target.triangle = shot.triangle.data();
     if (wanted.depth) shot.depth.resize(pixels), target.depth = shot.depth.data();
     if (wanted.normal) shot.normal.resize(3 * pixels), target.normal = shot.normal.data();
-    Settings settings = job.settings;
-    if (!wanted.first_sample) settings.samples = 1;
-    const auto drawn = renderer.render(*job.prepared, job.light, camera, settings, target, job.timed_execution());
+    const auto drawn = renderer.render(*job.prepared, job.light, camera, job.settings, target, job.timed_execution());
     if (!drawn) return fail(drawn.error().code, job.source.name + ": " + drawn.error().message);
     return shot;
+}
+
+Result<void> draw_numbers(const RenderJob& job, Renderer& renderer, const Camera& camera, int threads, ViewShot& shot) {
+    const std::size_t pixels = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
+    shot.camera = camera;
+    shot.picture.width = job.width, shot.picture.height = job.height;
+    shot.instance.resize(pixels), shot.triangle.resize(pixels);
+    Target target{job.width, job.height};
+    target.instance = shot.instance.data(), target.triangle = shot.triangle.data();
+    Settings settings = job.settings;
+    settings.samples = 1;  // in the pixel's middle
+    settings.background_environment = false;
+    Execution execution = job.timed_execution();
+    execution.threads = threads;
+    const auto drawn = renderer.render(*job.prepared, Lighting{}, camera, settings, target, execution);
+    if (!drawn) return fail(drawn.error().code, job.source.name + ": " + drawn.error().message);
+    return {};
 }
 
 double pixel_size(const Camera& camera, int width, int height, double distance) {

@@ -28,12 +28,15 @@ struct ViewShot {
 struct ShotPlanes {
     bool picture = true;  ///< colours; without them nothing is shaded
     bool depth = false, normal = false;
-    bool first_sample = true;  ///< false: planes show what lies at the pixels' centres. Without colours that is faster
 };
 
 /// Draws a view. The studio turns with the camera. The job's size and settings count; its region must be the whole picture.
 [[nodiscard]] Result<ViewShot> draw_shot(RenderJob& job, Renderer& renderer, std::string name, const Camera& camera,
                                          const ShotPlanes& wanted);
+
+/// Draws again which triangle each pixel's centre shows, by these threads and into memory that the shot may have from an earlier picture.
+/// Its picture and other planes are left.
+[[nodiscard]] Result<void> draw_numbers(const RenderJob& job, Renderer& renderer, const Camera& camera, int threads, ViewShot& shot);
 
 /// Units of the drawn world that a pixel is wide, at a distance along the view axis.
 [[nodiscard]] double pixel_size(const Camera& camera, int width, int height, double distance);
