@@ -5,6 +5,11 @@
 #include <cstdlib>
 #include <string>
 
+// A module that loads these kernels apart defines it.
+#ifndef HALFLIT_HAS_WASM128
+#define HALFLIT_HAS_WASM128 true
+#endif
+
 namespace halflit {
 namespace {
 

@@ -22,6 +22,8 @@ std::vector<std::vector<std::byte>> wanted;
 
 Key key_of(Bytes file) { return {pixel_hash({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}), file.size()}; }
 
+#if !HALFLIT_HAS_WEBP
+
 unsigned byte_at(Bytes file, std::size_t at) { return at < file.size() ? std::to_integer<unsigned>(file[at]) : 0u; }
 
 struct Sides {
@@ -81,6 +83,8 @@ Result<io::DecodedImage> given(Bytes file) {
     return fail(ErrorCode::io, "the browser has not decoded this picture yet");
 }
 
+#endif
+
 }  // namespace
 
 namespace web {
@@ -96,6 +100,8 @@ void forget_wanted_pictures() { wanted.clear(); }
 void forget_given_pictures() { given_pictures.clear(); }
 
 }  // namespace web
+
+#if !HALFLIT_HAS_WEBP
 
 namespace io {
 
@@ -122,4 +128,7 @@ Result<DecodedImage> decode_webp(Bytes file, const ImageLimits& /*limits*/) { re
 
 }  // namespace detail
 }  // namespace io
+
+#endif
+
 }  // namespace halflit

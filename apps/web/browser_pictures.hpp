@@ -1,5 +1,6 @@
 // JPEG and WebP pictures, which the browser decodes. That takes place between two attempts to load a model: the first one notes which
-// pictures it wants, and fails; the page has them decoded, hands them over, and asks again.
+// pictures it wants, and fails; the page has them decoded, hands them over, and asks again. A build with the libraries of libraries.cmake
+// decodes them itself, and wants none.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,8 @@
 namespace halflit {
 namespace {
 
-std::map<std::string, std::vector<std::byte>, std::less<>> dropped_files;
+web::FileStore files_of_page;
+web::FileStore* store = &files_of_page;
 
 /// The name without "." and, where it can be resolved, without "..".
 std::string plain_name(std::string_view name) {
@@ -31,20 +32,28 @@ std::string plain_name(std::string_view name) {
 }
 
 Result<std::vector<std::byte>> find_file(const std::string& name, std::size_t max_bytes, ErrorCode absent) {
-    const auto found = dropped_files.find(name);
-    if (found == dropped_files.end()) return fail(absent, "no such file was dropped");
+    const auto found = store->files.find(name);
+    if (found == store->files.end()) return fail(absent, "no such file was dropped");
     if (found->second.size() > max_bytes)
         return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", found->second.size(), max_bytes));
     return found->second;
+}
+
+void want(std::string name) {
+    if (std::find(store->wanted.begin(), store->wanted.end(), name) == store->wanted.end()) store->wanted.push_back(std::move(name));
 }
 
 }  // namespace
 
 namespace web {
 
-void add_file(const std::string& name, std::vector<std::byte> bytes) { dropped_files[plain_name(name)] = std::move(bytes); }
+void use_files(FileStore* other) { store = other != nullptr ? other : &files_of_page; }
 
-void forget_files() { dropped_files.clear(); }
+std::vector<std::byte>& add_file(const std::string& name, std::vector<std::byte> bytes) {
+    return store->files[plain_name(name)] = std::move(bytes);
+}
+
+void forget_files() { *store = {}; }
 
 }  // namespace web
 
@@ -74,6 +83,7 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     auto file = find_file(places(relative)[0], max_bytes, ErrorCode::bad_input);
     if (!file && file.error().code == ErrorCode::bad_input)
         file = find_file(std::string(relative.substr(relative.rfind('/') + 1)), max_bytes, ErrorCode::bad_input);
+    if (!file && file.error().code == ErrorCode::bad_input) want(places(relative)[0]);
     if (!file) return refuse(file.error());
     return file;
 }
@@ -91,7 +101,7 @@ Result<std::vector<std::byte>> ModelFolder::read_like(std::string_view name, std
     };
     const std::string wanted = last_part(name);
     std::vector<const std::string*> alike;
-    for (const auto& [file, bytes] : dropped_files)
+    for (const auto& [file, bytes] : store->files)
         if (last_part(file) == wanted) alike.push_back(&file);
     if (alike.size() != 1) return exact;
     found = *alike[0];

@@ -1,14 +1,27 @@
-// Files of the page: what a visitor dropped, in memory. dropped_files.cpp answers apps/io/file_access.hpp from them.
+// Files in memory: what a visitor dropped on the page, or what a host handed over. dropped_files.cpp answers apps/io/file_access.hpp from
+// them.
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace halflit::web {
 
-/// Adds or replaces a file. `name` may have folders before it, with '/'.
-void add_file(const std::string& name, std::vector<std::byte> bytes);
+/// Files by their plain names, and the names that models asked for and that are not there, each once.
+struct FileStore {
+    std::map<std::string, std::vector<std::byte>, std::less<>> files;
+    std::vector<std::string> wanted;
+};
+
+/// From now on, files are those of this store, which outlives its use; null: those of the page.
+void use_files(FileStore* store);
+
+/// Adds or replaces a file of the store in use. `name` may have folders before it, with '/'. The bytes are valid until then.
+std::vector<std::byte>& add_file(const std::string& name, std::vector<std::byte> bytes);
+/// Forgets the files, and the names that were asked for.
 void forget_files();
 
 }  // namespace halflit::web

@@ -38,7 +38,16 @@ constexpr std::string_view kSettingsFlags[] = {"--camera",
                                                "--soft-shadow-maps",
                                                "--shadow-terminator",
                                                "--texture-filter",
-                                               "--anisotropy"};
+                                               "--anisotropy",
+                                               "--line-width",
+                                               "--shadow-memory",
+                                               "--normal-scale",
+                                               "--view",
+                                               "--fit",
+                                               "--ortho",
+                                               "--orthographic",
+                                               "--camera-orbit",
+                                               "--edge-color"};
 /// Flags that change how it is lit, or the picture's size, by which the maps of its shadows are chosen. For all others the scene is loaded
 /// anew.
 constexpr std::string_view kLightFlags[] = {"--light",      "--no-scene-lights", "--ambient",  "--env",
@@ -72,6 +81,7 @@ void PictureSession::forget_scene() { job_.reset(); }
 Result<void> PictureSession::apply(const std::string& scene, const std::vector<std::string>& flags) {
     auto options = cli::parse_render_flags(flags);
     if (!options) return tl::unexpected(options.error());
+    if (options->film.views.size() > 1) return fail(ErrorCode::usage, "--view: one side for each picture");
     options->scene = scene;
     options->execution.threads = 1;
     options->may_want_reference = true;
@@ -92,6 +102,7 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
         scene_flags_ = std::move(keys.scene);
     }
     light_flags_ = std::move(keys.light);
+    job_->execution.time_limit_s = options->timeout_s;  // of this picture, beside what the loading took
     return {};
 }
 
@@ -106,12 +117,17 @@ Result<Image> PictureSession::render(const Settings& settings, bool linear) {
 Result<void> PictureSession::draw(const std::string& scene, const std::vector<std::string>& flags) {
     const cli::Stopwatch watch;
     if (const auto applied = apply(scene, flags); !applied) return applied;
-    const double apply_ms = watch.ms();
+    apply_ms_ = watch.ms();
     auto image = render(job_->settings, false);
     if (!image) return tl::unexpected(image.error());
     picture_ = std::move(*image);
-    report_ = picture_report(*job_, last_, picture_, apply_ms);
+    comparison_.clear();
     return {};
+}
+
+std::string PictureSession::report() const {
+    if (!comparison_.empty()) return comparison_;
+    return job_ ? picture_report(*job_, last_, picture_, apply_ms_) : "{}";
 }
 
 Result<void> PictureSession::compare(const std::string& scene, const std::vector<std::string>& flags) {
@@ -137,7 +153,7 @@ Result<void> PictureSession::compare(const std::string& scene, const std::vector
     const cli::TradeError error = reference.error_of(*drawn);
     const double gain = 255.0 / std::max(error.max, 1e-6);
     picture_ = reference.difference(*drawn, gain);
-    report_ = error_report(error, reference_ms);
+    comparison_ = error_report(error, reference_ms);
     return {};
 }
 

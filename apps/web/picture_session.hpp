@@ -24,11 +24,17 @@ public:
     void forget_scene();
 
     [[nodiscard]] const Image& picture() const { return picture_; }
-    /// JSON about the last picture or comparison.
-    [[nodiscard]] const std::string& report() const { return report_; }
+    /// JSON for the page about the last picture or comparison.
+    [[nodiscard]] std::string report() const;
+
+    /// Loads, prepares and lights what draw() would draw.
+    Result<void> apply(const std::string& scene, const std::vector<std::string>& flags);
+    /// Null before the first apply() or draw(), and where that failed.
+    [[nodiscard]] const cli::RenderJob* job() const { return job_ ? &*job_ : nullptr; }
+    /// The renderer's, of the last picture.
+    [[nodiscard]] const RenderReport& rendered() const { return last_; }
 
 private:
-    Result<void> apply(const std::string& scene, const std::vector<std::string>& flags);
     Result<Image> render(const Settings& settings, bool linear);
 
     std::optional<cli::RenderJob> job_;
@@ -36,7 +42,8 @@ private:
     Renderer renderer_;
     RenderReport last_;
     Image picture_;
-    std::string report_;
+    double apply_ms_ = 0;
+    std::string comparison_;  ///< its report; empty: the last picture is none
 };
 
 }  // namespace halflit::web

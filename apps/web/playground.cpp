@@ -71,7 +71,10 @@ EMSCRIPTEN_KEEPALIVE int halflit_compare(const char* scene, const char* flags) {
     return attempt([&] { return session().compare(scene, lines_of(flags)); });
 }
 EMSCRIPTEN_KEEPALIVE const char* halflit_message() { return message.c_str(); }
-EMSCRIPTEN_KEEPALIVE const char* halflit_report() { return session().report().c_str(); }
+EMSCRIPTEN_KEEPALIVE const char* halflit_report() {
+    message = session().report();
+    return message.c_str();
+}
 EMSCRIPTEN_KEEPALIVE const std::uint8_t* halflit_pixels() { return session().picture().rgba8.data(); }
 EMSCRIPTEN_KEEPALIVE int halflit_width() { return session().picture().width; }
 EMSCRIPTEN_KEEPALIVE int halflit_height() { return session().picture().height; }

@@ -41,8 +41,8 @@ set(subfolders
     "apps/halflit/golden/=apps/(halflit/(farm|mcp|commands)|lab|viewer)/"
     "apps/halflit/mcp/=apps/(halflit/(golden|commands)|lab|viewer)/"
     # The C interface and all that stands on io know what is public and what program and library share.
-    "apps/io/=apps/(c|halflit|film|viewer|lab|web)/"
-    "apps/c/=apps/(halflit|film|viewer|lab|web)/")
+    "apps/io/=apps/(c|halflit|film|viewer|lab|web|npm)/"
+    "apps/c/=apps/(halflit|film|viewer|lab|web|npm)/")
 set(failures "")
 set(file_count 0)
 

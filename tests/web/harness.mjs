@@ -69,6 +69,24 @@ export function write_squares(name, { nodes, materials, ...more }) {
   }));
 }
 
+// A pedestal with pictures of all kinds: a JPEG, a PNG of 8 bits with alpha, in files of their own.
+export function write_textured_model() {
+  run(["demo", "--size", "96x80", "-o", "photo.jpg", "--quiet"]);
+  run(["sphere:500", "--size", "64x64", "--background", "transparent", "-o", "ball.png", "--quiet"]);
+  const material = (index, alphaMode) => ({ doubleSided: true, alphaMode, pbrMetallicRoughness: { baseColorTexture: { index }, metallicFactor: 0.2, roughnessFactor: 0.5 } });
+  write_squares("textured", {
+    nodes: [{ mesh: 0 }, { mesh: 1, translation: [0.4, 0, 0.7], rotation: [0, 0.2588, 0, 0.9659] }], materials: [material(0, "OPAQUE"), material(1, "BLEND")],
+    textures: [{ source: 0 }, { source: 1 }], images: [{ uri: "photo.jpg" }, { uri: "ball.png" }],
+  });
+}
+
+// Points in a spiral.
+export function write_points() {
+  const count = 60, header = `ply\nformat ascii 1.0\nelement vertex ${count}\nproperty float x\nproperty float y\nproperty float z\nend_header\n`;
+  const point = (i) => [Math.cos(i / 5), i / 20, Math.sin(i / 5)].map((x) => x.toFixed(4)).join(" ");
+  writeFileSync(join(work, "dots.ply"), header + Array.from({ length: count }, (_, i) => `${point(i)}\n`).join(""));
+}
+
 export const idle = "window.halflit && halflit.current().shown && halflit.current().idle";
 export const shown_hash = (page) => page.value("halflit.current().shown.report.hash");
 export const words_of = (command) => command.replace(/ -o .*/, "").match(/'[^']*'|\S+/g).slice(1).map((word) => word.replace(/^'|'$/g, ""));

@@ -3,25 +3,7 @@ import { spawnSync } from "node:child_process";
 import { copyFileSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Page } from "./chromium.mjs";
-import { address, answers_of, begin, check, end, idle, native_hash, program, run, shown_hash, source, words_of, work, write_squares } from "./harness.mjs";
-
-// A pedestal with pictures of all kinds: a JPEG, a PNG of 8 bits with alpha, in files of their own.
-function write_textured_model() {
-  run(["demo", "--size", "96x80", "-o", "photo.jpg", "--quiet"]);
-  run(["sphere:500", "--size", "64x64", "--background", "transparent", "-o", "ball.png", "--quiet"]);
-  const material = (index, alphaMode) => ({ doubleSided: true, alphaMode, pbrMetallicRoughness: { baseColorTexture: { index }, metallicFactor: 0.2, roughnessFactor: 0.5 } });
-  write_squares("textured", {
-    nodes: [{ mesh: 0 }, { mesh: 1, translation: [0.4, 0, 0.7], rotation: [0, 0.2588, 0, 0.9659] }], materials: [material(0, "OPAQUE"), material(1, "BLEND")],
-    textures: [{ source: 0 }, { source: 1 }], images: [{ uri: "photo.jpg" }, { uri: "ball.png" }],
-  });
-}
-
-// Points in a spiral.
-function write_points() {
-  const count = 60, header = `ply\nformat ascii 1.0\nelement vertex ${count}\nproperty float x\nproperty float y\nproperty float z\nend_header\n`;
-  const point = (i) => [Math.cos(i / 5), i / 20, Math.sin(i / 5)].map((x) => x.toFixed(4)).join(" ");
-  writeFileSync(join(work, "dots.ply"), header + Array.from({ length: count }, (_, i) => `${point(i)}\n`).join(""));
-}
+import { address, answers_of, begin, check, end, idle, native_hash, program, run, shown_hash, source, words_of, work, write_points, write_textured_model } from "./harness.mjs";
 
 const kFiles = ["knot.glb", "textured.gltf", "textured.bin", "photo.jpg", "ball.png", "dots.ply"];
 

@@ -138,7 +138,7 @@ async function test_worker() {
   };
   const bitmap = { width: 2, height: 3, close() { ++closed; this.width = this.height = 0; } };
   const globals = {
-    halflit_module: async () => core, postMessage: (answer) => answers.push(answer), createImageBitmap: async () => bitmap,
+    WebAssembly, halflit_module: async () => core, postMessage: (answer) => answers.push(answer), createImageBitmap: async () => bitmap,
     OffscreenCanvas: class { getContext() { return { drawImage() {}, getImageData: (x, y, width, height) => ({ width, height }) }; } },
   };
   const worker = load(["worker.js"], globals, ["onmessage", "plain_jpeg", "decoded", "queue"]);
@@ -152,7 +152,8 @@ async function test_worker() {
   check("worker: it draws", () => drawn.width === 1 && !drawn.error);
   const broken = await ask({ kind: "draw", scene: "demo", flags: ["--light", "x\n--samples\n16"] });
   check("worker: a word with a line break is refused, as flags are separated by line breaks", () => /line break/.test(broken.error));
-  core._halflit_draw = () => { throw 5246800; };  // as Emscripten throws an exception of C++
+  const of_code = new WebAssembly.Exception(new WebAssembly.Tag({ parameters: ["i32"] }), [5246800]);  // as C++ throws
+  core._halflit_draw = () => { throw of_code; };
   const thrown = await ask({ kind: "draw", scene: "demo", flags: [] });
   check("worker: an exception of the module says that memory ended", () => thrown.error === "out of memory" && thrown.ended);
   place = 0;

@@ -5,6 +5,11 @@
 
 #include <fmt/format.h>
 
+// A build may have libwebp's decoder alone.
+#ifndef HALFLIT_HAS_WEBP_ENCODER
+#define HALFLIT_HAS_WEBP_ENCODER HALFLIT_HAS_WEBP
+#endif
+
 #if HALFLIT_HAS_WEBP
 #include <webp/decode.h>
 #include <webp/encode.h>
@@ -78,7 +83,7 @@ Result<DecodedImage> decode_webp(std::span<const std::byte>, const ImageLimits&)
 
 }  // namespace detail
 
-#if HALFLIT_HAS_WEBP
+#if HALFLIT_HAS_WEBP_ENCODER
 
 Result<std::vector<std::uint8_t>> encode_webp(const Image& image) {
     WebPConfig config;
@@ -103,7 +108,7 @@ Result<std::vector<std::uint8_t>> encode_webp(const Image& image) {
 #else
 
 Result<std::vector<std::uint8_t>> encode_webp(const Image&) {
-    return fail(ErrorCode::usage, "WebP pictures need the library libwebp, which this build lacks");
+    return fail(ErrorCode::usage, "writing WebP pictures needs the library libwebp, which this build lacks");
 }
 
 #endif

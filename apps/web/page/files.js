@@ -1,5 +1,5 @@
 // Models and environments that a visitor drops or opens. They never leave the page.
-const kModelName = /\.(glb|gltf|stl|ply|obj)$/i, kSkyName = /\.(hdr|pfm)$/i;
+const kModelName = /\.(glb|gltf|stl|ply|obj|off|3mf)$/i, kSkyName = /\.(hdr|pfm)$/i;
 
 function files_of_entry(entry, folder) {
   if (entry.isFile) return new Promise((resolve) => entry.file((file) => resolve([{ name: folder + file.name, file }]), () => resolve([])));

@@ -112,8 +112,9 @@ onmessage = (event) => {
     let answer;
     try {
       answer = await tasks[task.kind](task);
-    } catch (error) {  // the module ended; C++ throws numbers here, and only where memory ends
-      answer = { error: typeof error === "number" ? "out of memory" : String(error.message || error), ended: true };
+    } catch (error) {  // the module ended; C++ throws here only where memory ends
+      const of_code = WebAssembly.Exception !== undefined && error instanceof WebAssembly.Exception;
+      answer = { error: of_code ? "out of memory" : String(error.message || error), ended: true };
     }
     postMessage({ ...answer, id: task.id }, answer.pixels ? [answer.pixels] : []);
   });

@@ -1,0 +1,159 @@
+// The functions that the package's engine.js calls. A scene is a handle. Texts are UTF-8 and end with a zero byte; what is returned lives
+// until the next call for that scene.
+#include "apps/halflit/report/run_report.hpp"
+#include "apps/halflit/report/scene_description.hpp"
+#include "apps/npm/flag_table.hpp"
+#include "apps/web/dropped_files.hpp"
+#include "apps/web/kernels_apart.hpp"
+#include "apps/web/picture_session.hpp"
+#include "halflit/image.hpp"
+
+#include <emscripten.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace halflit;
+
+struct Handle {
+    web::FileStore files;
+    web::PictureSession session;
+    std::string scene, text;  ///< text: an error's words, or JSON
+};
+
+std::string of_module;              ///< text that belongs to no scene
+std::vector<std::uint8_t> encoded;  ///< the last file of encode()
+
+/// 0, or the error's exit code, with its words in `text`.
+template <class Work>
+int attempt(std::string& text, const Work& work) {
+    Result<void> done;
+    try {
+        done = work();
+    } catch (const std::bad_alloc&) {
+        done = fail(ErrorCode::limit, "out of memory");
+    }
+    if (done) return 0;
+    text = done.error().message;
+    return std::max(1, static_cast<int>(done.error().code));
+}
+
+template <class Work>
+int attempt_on(Handle& handle, const Work& work) {
+    web::use_files(&handle.files);
+    handle.files.wanted.clear();
+    return attempt(handle.text, work);
+}
+
+std::vector<std::string> lines_of(const std::string& text) { return cli::words_of(text, '\n'); }
+
+}  // namespace
+
+extern "C" {
+
+EMSCRIPTEN_KEEPALIVE void* halflit_allocate(int bytes) { return std::malloc(static_cast<std::size_t>(bytes)); }
+EMSCRIPTEN_KEEPALIVE void halflit_free(void* memory) { std::free(memory); }
+
+/// Before the first picture: addresses of the tables of kernels that the other module exports.
+EMSCRIPTEN_KEEPALIVE void halflit_use_wasm128(const void* raster, const void* shade) { web::use_wasm128(raster, shade); }
+
+/// The instruction set that draws.
+EMSCRIPTEN_KEEPALIVE const char* halflit_isa() {
+    of_module = default_isa().map([](Isa isa) { return std::string(isa_name(isa)); }).value_or("");
+    return of_module.c_str();
+}
+
+/// scene: a built-in one, or the name of a file that will be added.
+EMSCRIPTEN_KEEPALIVE Handle* halflit_open(const char* scene) {
+    auto* const handle = new Handle;
+    handle->scene = scene;
+    return handle;
+}
+EMSCRIPTEN_KEEPALIVE void halflit_close(Handle* handle) {
+    web::use_files(nullptr);
+    delete handle;
+}
+
+/// Memory for the file's bytes, which the caller fills. Null: there is none. of_scene: 0 for a file that the model does not name.
+EMSCRIPTEN_KEEPALIVE void* halflit_add_file(Handle* handle, const char* name, int size, int of_scene) {
+    web::use_files(&handle->files);
+    if (of_scene != 0) handle->session.forget_scene();
+    try {
+        return web::add_file(name, std::vector<std::byte>(static_cast<std::size_t>(size))).data();
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
+/// Names of files that the last attempt asked for and that are not there, one a line.
+EMSCRIPTEN_KEEPALIVE const char* halflit_wanted(Handle* handle) {
+    of_module = cli::joined(handle->files.wanted, "\n");
+    return of_module.c_str();
+}
+
+/// Loads the scene, if the flags (one word a line) need it, without drawing it.
+EMSCRIPTEN_KEEPALIVE int halflit_prepare(Handle* handle, const char* flags) {
+    return attempt_on(*handle, [&] { return handle->session.apply(handle->scene, lines_of(flags)); });
+}
+EMSCRIPTEN_KEEPALIVE int halflit_draw(Handle* handle, const char* flags) {
+    return attempt_on(*handle, [&] { return handle->session.draw(handle->scene, lines_of(flags)); });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* halflit_text(Handle* handle) { return handle->text.c_str(); }
+EMSCRIPTEN_KEEPALIVE const std::uint8_t* halflit_pixels(Handle* handle) { return handle->session.picture().rgba8.data(); }
+EMSCRIPTEN_KEEPALIVE int halflit_width(Handle* handle) { return handle->session.picture().width; }
+EMSCRIPTEN_KEEPALIVE int halflit_height(Handle* handle) { return handle->session.picture().height; }
+
+/// As text: the report of the last picture, as that of `halflit render --report`.
+EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
+    return attempt(handle->text, [&]() -> Result<void> {
+        const cli::RenderJob* const job = handle->session.job();
+        if (job == nullptr) return fail(ErrorCode::usage, "there is no picture yet");
+        cli::Json report = cli::report_head("report");
+        report["scene"] = job->source.name;
+        cli::add_frame(report, *job, handle->session.rendered(), handle->session.picture());
+        handle->text = cli::to_text(report, true);
+        return {};
+    });
+}
+/// As text: the scene, as `halflit info --json` describes it. parts: 1, with measures of each part.
+EMSCRIPTEN_KEEPALIVE int halflit_info(Handle* handle, const char* flags, int parts) {
+    return attempt_on(*handle, [&]() -> Result<void> {
+        if (auto applied = handle->session.apply(handle->scene, lines_of(flags)); !applied) return applied;
+        return cli::describe_scene(*handle->session.job(), true, parts != 0).map([&](std::string text) { handle->text = std::move(text); });
+    });
+}
+
+/// The file of a picture. name: its file's name, whose ending says the format. Its length, or -1, with the error's words in
+/// halflit_encoding_error().
+EMSCRIPTEN_KEEPALIVE int halflit_encode(const std::uint8_t* rgba8, int width, int height, const char* name) {
+    const int failed = attempt(of_module, [&]() -> Result<void> {
+        const auto format = output_format_of(name);
+        if (!format) return tl::unexpected(format.error());
+        Image image = Image::make(width, height);
+        std::copy_n(rgba8, image.rgba8.size(), image.rgba8.data());
+        auto file = encode_image(image, *format);
+        if (!file) return tl::unexpected(file.error());
+        encoded = std::move(*file);
+        return {};
+    });
+    return failed != 0 ? -1 : static_cast<int>(encoded.size());
+}
+EMSCRIPTEN_KEEPALIVE const std::uint8_t* halflit_encoded() { return encoded.data(); }
+EMSCRIPTEN_KEEPALIVE void halflit_forget_encoded() { encoded = {}; }
+EMSCRIPTEN_KEEPALIVE const char* halflit_encoding_error() { return of_module.c_str(); }
+
+/// JSON of the flags that the module takes.
+EMSCRIPTEN_KEEPALIVE const char* halflit_flags() {
+    of_module = npm::flag_table();
+    return of_module.c_str();
+}
+
+}  // extern "C"

@@ -1,0 +1,89 @@
+// Makes the folder of the npm package: node pack.mjs SOURCE_FOLDER BIN_FOLDER LIBRARIES_FOLDER OUTPUT_FOLDER
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [source, bin, libraries, output] = process.argv.slice(2);
+const text = (...parts) => readFileSync(join(...parts), "utf8");
+rmSync(output, { recursive: true, force: true });
+mkdirSync(join(output, "licences"), { recursive: true });
+cpSync(join(source, "apps/npm/package"), output, { recursive: true });
+for (const name of ["README.md"]) cpSync(join(source, "apps/npm", name), join(output, name));
+cpSync(join(source, "LICENSE"), join(output, "LICENSE"));
+
+// ---- the modules' own code, as an ES module -----------------------------------------------------------------------------
+const glue = text(bin, "halflit_npm_main.js");
+// It asks these names where it runs. The package's own files load the code, so to it every host is the same, which has none of them.
+const kHosts = ["window", "importScripts", "process", "require", "document", "__filename"];
+writeFileSync(join(output, "module.js"), `// Emscripten's code around halflit.wasm.
+const halflit_module = ((${kHosts.join(", ")}) => {
+${glue}
+return halflit_module;
+})();
+export default halflit_module;
+`);
+cpSync(join(bin, "halflit_npm_main.wasm"), join(output, "halflit.wasm"));
+cpSync(join(bin, "halflit_npm_wasm128.wasm"), join(output, "halflit_wasm128.wasm"));
+
+// What the kernels need, by the linker's section dylink.0: a type, its length, and as LEB128 bytes, log2 of their alignment, functions.
+function needs_of(file) {
+  const module = new WebAssembly.Module(readFileSync(file)), section = new Uint8Array(WebAssembly.Module.customSections(module, "dylink.0")[0]);
+  let at = 2;
+  const number = () => {
+    let value = 0, shift = 0;
+    for (; ; shift += 7) {
+      value |= (section[at] & 127) << shift;
+      if (section[at++] < 128) return value;
+    }
+  };
+  if (section[0] !== 1) throw new Error("dylink.0: expected the memory first");
+  return { bytes: number(), align: 1 << number(), functions: number() };
+}
+const kStackBytes = 1 << 16;  // twenty times the largest frame of a kernel
+
+// ---- the flags, from the module's own table -----------------------------------------------------------------------------
+const { default: halflit_module } = await import(pathToFileURL(join(output, "module.js")));
+const core = await halflit_module({ wasmBinary: readFileSync(join(output, "halflit.wasm")) });
+const table = JSON.parse(core.UTF8ToString(core._halflit_flags()));
+writeFileSync(join(output, "tables.js"), `// Made by pack.mjs, from the module's own tables.
+export const version = ${JSON.stringify(table.version)}, pixelEpoch = ${table.pixel_epoch};
+export const kernels = ${JSON.stringify({ ...needs_of(join(output, "halflit_wasm128.wasm")), stack: kStackBytes })};
+export const flags = ${JSON.stringify(table.flags).replaceAll('},{"names"', '},\n  {"names"')};
+`);
+
+const camel = (name) => name.replace(/^-+/, "").replace(/-([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+function type_of({ form, repeated }) {
+  if (form === "") return "boolean";
+  const words = form.split("|"), named = words.every((word) => /^[a-z0-9-]+$/.test(word));
+  let type = named ? words.map((word) => JSON.stringify(word)).join(" | ") : "string";
+  if (named && words.includes("off") && words.includes("on")) type += " | boolean";
+  if (named) {
+    const numbers = words.filter((word) => /^\d+$/.test(word));
+    if (numbers.length > 0) type += ` | ${numbers.join(" | ")}`;
+  } else if (words.some((word) => /^(N|W|X|S|R|D|PX|DEG|EV|CODES|SECONDS|PIXELS|MIB|INDEX|[0-9.]+)$/.test(word))) type += " | number";
+  if (/^(WxH|[A-Z](,[A-Z])+)$/.test(form)) type += " | readonly number[]";
+  if (form.startsWith("FILE|")) type += " | ArrayBuffer | ArrayBufferView";
+  return repeated ? `${type} | ReadonlyArray<${type}>` : type;
+}
+const options = table.flags.map((flag) => `  /** ${flag.help.replaceAll("*/", "* /")} */\n  ${camel(flag.names.at(-1))}?: ${type_of(flag)};`);
+const types = text(output, "index.d.ts");
+writeFileSync(join(output, "index.d.ts"), `${types}
+/** The program's flags, by their names in camelCase; values as on the command line. */
+export interface FlagOptions {
+${options.join("\n")}
+}
+`);
+
+// ---- package.json, and the licences of what is compiled in ---------------------------------------------------------------
+const description = JSON.parse(text(output, "package.json"));
+description.version = table.version;
+writeFileSync(join(output, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
+for (const folder of readdirSync(libraries)) {
+  const licence = join(libraries, folder, "debian/copyright");
+  if (existsSync(licence)) cpSync(licence, join(output, "licences", `${folder.replace(/-[0-9].*/, "")}.txt`));
+}
+for (const name of ["libfmt-dev", "libxsimd-dev", "libexpected-dev", "libstb-dev", "nlohmann-json3-dev", "emscripten"]) {
+  const licence = `/usr/share/doc/${name}/copyright`;
+  if (existsSync(licence)) cpSync(licence, join(output, "licences", `${name.replace(/^lib|[0-9]*-dev$/g, "")}.txt`));
+  else console.error(`pack: no licence of ${name} was found`);
+}

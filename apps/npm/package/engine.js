@@ -1,0 +1,351 @@
+// Scenes and pictures, by the WebAssembly module. The files node.js, browser.js, workerd.js and edge.js say where its code is.
+import halflit_module from "./module.js";
+import { flags, kernels, pixelEpoch, version } from "./tables.js";
+
+const kSimdProbe = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
+const kRounds = 16;  // of files that name other files
+const kUsage = 2, kLimit = 5;  // exit codes of the program
+const text_bytes = new TextEncoder();
+
+export class HalflitError extends Error {
+  // code: the exit code that the program has for the error.
+  constructor(message, code) {
+    super(message);
+    this.name = "HalflitError";
+    this.code = code;
+  }
+}
+
+const usage = (message) => new HalflitError(message, kUsage);
+
+// ---- the module ---------------------------------------------------------------------------------------------------------
+let code_of_host = null;  // name => WebAssembly.Module, its bytes or a Response, or a promise of these
+let started = null;       // promise of the module that new scenes use
+
+export function set_code(load) {
+  code_of_host = load;
+}
+
+async function compiled(code) {
+  const given = await code;
+  if (given instanceof WebAssembly.Module) return given;
+  if (typeof Response !== "undefined" && given instanceof Response) {
+    if (!given.ok) throw new Error(`${given.url}: status ${given.status}`);
+    return WebAssembly.compile(await given.arrayBuffer());
+  }
+  return WebAssembly.compile(given);
+}
+
+const of_kind = (exports, kind) => Object.values(exports).find((value) => value instanceof kind);
+
+// Puts the kernels of wasm128, a module of their own, into the memory and the table of functions of the other one. They have a stack of
+// their own, and call nothing.
+async function add_kernels(core, exports, module) {
+  const table = of_kind(exports, WebAssembly.Table), memory = of_kind(exports, WebAssembly.Memory);
+  const room = allocated(core, kernels.bytes + kernels.align), stack = allocated(core, kernels.stack + 16);
+  const place = Math.ceil(room / kernels.align) * kernels.align, top = (stack + kernels.stack) & ~15;
+  core.HEAPU8.fill(0, room, room + kernels.bytes + kernels.align);
+  const global = (value, mutable = false) => new WebAssembly.Global({ value: "i32", mutable }, value);
+  const { exports: found } = await WebAssembly.instantiate(module, { env: {
+    memory, __indirect_function_table: table, __memory_base: global(place), __table_base: global(table.grow(kernels.functions)), __stack_pointer: global(top, true),
+  } });
+  core._halflit_use_wasm128(found.halflit_raster_kernels(), found.halflit_shade_kernels());
+}
+
+async function start({ wasm, wasm128, simd } = {}) {
+  const has_simd = simd ?? WebAssembly.validate(kSimdProbe), second = !has_simd ? null : wasm128 ?? (wasm ? null : code_of_host("halflit_wasm128.wasm"));
+  const [module, of_kernels] = await Promise.all([compiled(wasm ?? code_of_host("halflit.wasm")), second && compiled(second)]);
+  let exports = null;
+  const core = await new Promise((resolve, reject) => {
+    const instantiateWasm = (imports, done) => {
+      WebAssembly.instantiate(module, imports).then((instance) => {
+        exports = instance.exports;
+        done(instance, module);
+      }).catch(reject);
+      return {};
+    };
+    halflit_module({ instantiateWasm, print() {}, printErr() {} }).then(resolve, reject);
+  });
+  if (of_kernels) await add_kernels(core, exports, of_kernels);
+  core.ended = false;
+  return core;
+}
+
+export function init(options) {
+  if (options || !started) {
+    const attempt = start(options);
+    started = attempt;
+    attempt.catch(() => { if (started === attempt) started = null; });
+  }
+  return started.then((core) => ({ version, pixelEpoch, isa: core.UTF8ToString(core._halflit_isa()) }));
+}
+
+async function running() {
+  if (!started) await init();
+  const core = await started;
+  if (!core.ended) return core;
+  started = null;
+  return running();
+}
+
+// Calls the module. What it throws (an abort, or memory that cannot grow) ends it: its scenes are lost, and new ones get a new module.
+function call(core, work) {
+  if (core.ended) throw new HalflitError("the module has ended, and its scenes with it", kLimit);
+  try {
+    return work(core);
+  } catch (error) {
+    if (error instanceof HalflitError) throw error;
+    core.ended = true;
+    const is_of_code = WebAssembly.Exception !== undefined && error instanceof WebAssembly.Exception;  // thrown where memory ends alone
+    throw new HalflitError(is_of_code ? "out of memory" : `the module ended: ${error.message ?? error}`, kLimit);
+  }
+}
+
+function allocated(core, size) {
+  const place = core._halflit_allocate(size || 1);
+  if (!place) throw new HalflitError("out of memory", kLimit);
+  return place;
+}
+
+function with_text(core, text, use) {
+  const size = core.lengthBytesUTF8(text) + 1, place = allocated(core, size);
+  core.stringToUTF8(text, place, size);
+  try {
+    return use(place);
+  } finally {
+    core._halflit_free(place);
+  }
+}
+
+const copied = (core, place, size) => core.HEAPU8.slice(place, place + size);
+
+// ---- options ------------------------------------------------------------------------------------------------------------
+const camel = (name) => name.replace(/^-+/, "").replace(/-([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+const flag_of = new Map();
+for (const flag of flags)
+  for (const name of flag.names)
+    if (name.startsWith("--")) for (const key of [camel(name), name, name.slice(2)]) flag_of.set(key, flag);
+
+const kOwn = new Set(["width", "height", "flags", "files", "name"]);
+const is_bytes = (value) => value instanceof ArrayBuffer || ArrayBuffer.isView(value);
+
+// Words of a command line: quotes hold blanks together.
+function words_of(line) {
+  if (Array.isArray(line)) return line.map(String);
+  return (String(line).match(/(?:[^\s"']|"[^"]*"|'[^']*')+/g) ?? []).map((word) => word.replace(/"([^"]*)"|'([^']*)'/g, "$1$2"));
+}
+
+function value_text(flag, key, value) {
+  if (typeof value === "boolean") {
+    if (!/(^|\|)on(\||$)/.test(flag.form)) throw usage(`${key}: expected a value (${flag.form}), found ${value}`);
+    return value ? "on" : "off";
+  }
+  if (Array.isArray(value)) return value.join(flag.form === "WxH" ? "x" : ",");
+  if (typeof value === "string" || typeof value === "number") return String(value);
+  throw usage(`${key}: expected a text or a number`);
+}
+
+// The words of the command line that means these options.
+function flag_words(options) {
+  const words = [];
+  for (const [key, value] of Object.entries(options)) {
+    if (kOwn.has(key) || value === undefined || value === null) continue;
+    const flag = flag_of.get(key);
+    if (!flag) throw usage(`unknown option ${key}`);
+    const name = flag.names.at(-1);
+    if (flag.form === "") {
+      if (typeof value !== "boolean") throw usage(`${key}: expected true or false`);
+      if (value) words.push(name);
+      continue;
+    }
+    const values = flag.repeated && Array.isArray(value) ? value : [value];
+    for (const one of values) words.push(name, value_text(flag, key, one));
+  }
+  const { width, height } = options;
+  if ((width === undefined) !== (height === undefined)) throw usage("width and height: expected both or none");
+  if (width !== undefined) words.push("--size", `${width}x${height}`);
+  if (options.flags !== undefined) words.push(...words_of(options.flags));
+  for (const word of words) if (/[\n\0]/.test(word)) throw usage("options have no line breaks");
+  return words;
+}
+
+// ---- files --------------------------------------------------------------------------------------------------------------
+async function bytes_of(given) {
+  let value = await given;
+  if (value === undefined || value === null) return null;
+  if (typeof value === "string") return text_bytes.encode(value);
+  if (typeof value.arrayBuffer === "function") {
+    if (value.ok === false) return null;  // a Response of a file that is not there
+    value = await value.arrayBuffer();
+  }
+  if (value instanceof ArrayBuffer) return new Uint8Array(value);
+  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  throw usage("expected bytes: an ArrayBuffer, a view of one, a text, a Blob or a Response");
+}
+
+function add_file(core, handle, name, bytes, of_scene) {
+  const place = with_text(core, name, (text) => core._halflit_add_file(handle, text, bytes.length, of_scene ? 1 : 0));
+  if (!place && bytes.length > 0) throw new HalflitError("out of memory", kLimit);
+  core.HEAPU8.set(bytes, place);
+}
+
+// ---- pictures -----------------------------------------------------------------------------------------------------------
+export class Picture {
+  #core;
+  constructor(core, handle) {
+    this.#core = core;
+    this.width = core._halflit_width(handle);
+    this.height = core._halflit_height(handle);
+    this.pixels = new Uint8ClampedArray(copied(core, core._halflit_pixels(handle), 4 * this.width * this.height).buffer);
+    core._halflit_report(handle);
+    this.report = JSON.parse(core.UTF8ToString(core._halflit_text(handle)));
+    this.hash = this.report.pixel_hash;
+  }
+  encode(format) {
+    return call(this.#core, (core) => {
+      const place = allocated(core, this.pixels.length);
+      core.HEAPU8.set(this.pixels, place);
+      const size = with_text(core, `picture.${format}`, (name) => core._halflit_encode(place, this.width, this.height, name));
+      core._halflit_free(place);
+      if (size < 0) throw usage(core.UTF8ToString(core._halflit_encoding_error()));
+      const file = copied(core, core._halflit_encoded(), size);
+      core._halflit_forget_encoded();
+      return file;
+    });
+  }
+  png() {
+    return this.encode("png");
+  }
+}
+
+// ---- scenes -------------------------------------------------------------------------------------------------------------
+const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new FinalizationRegistry(({ core, handle }) => {
+  if (!core.ended) core._halflit_close(handle);
+});
+
+export class Scene {
+  #core; #handle; #defaults; #resolve = null; #asked = new Set(); #environments = new Map();
+
+  constructor(core, handle, defaults) {
+    this.#core = core;
+    this.#handle = handle;
+    this.#defaults = defaults;
+    if (typeof defaults.files === "function") this.#resolve = defaults.files;
+    kForgotten?.register(this, { core, handle }, this);
+  }
+
+  static async open(source, options) {
+    const core = await running();
+    const built_in = typeof source === "string";
+    const name = built_in ? source : options.name ?? "model";
+    const bytes = built_in ? null : await bytes_of(source);
+    if (!built_in && bytes === null) throw usage("expected a model's bytes, or the name of a built-in scene");
+    const files = options.files && typeof options.files !== "function" ? options.files : {};
+    const listed = await Promise.all([...(files instanceof Map ? files : Object.entries(files))].map(async ([at, file]) => [at, await bytes_of(file)]));
+    const handle = call(core, () => with_text(core, name, (text) => core._halflit_open(text)));
+    const scene = new Scene(core, handle, options);
+    try {
+      call(core, () => {
+        if (bytes) add_file(core, handle, name, bytes, true);
+        for (const [at, file] of listed) if (file) add_file(core, handle, at, file, true);
+      });
+      await scene.#do(options, (words) => core._halflit_prepare(handle, words));
+      return scene;
+    } catch (error) {
+      scene.free();
+      throw error;
+    }
+  }
+
+  // Does it, and again with the files that it asked for, as far as the host has them.
+  async #do(options, work) {
+    const flags = flag_words(this.#with_environment(options)).join("\n");
+    for (let round = 0; ; ++round) {
+      const core = this.#core, handle = this.#live();
+      const code = call(core, () => with_text(core, flags, work));
+      const found = round < kRounds ? await this.#ask() : [];
+      if (found.length > 0) {
+        call(core, () => found.forEach(([name, bytes]) => add_file(core, this.#live(), name, bytes, true)));
+        continue;
+      }
+      if (code !== 0) throw new HalflitError(core.UTF8ToString(core._halflit_text(handle)), code);
+      return;
+    }
+  }
+
+  async #ask() {
+    if (!this.#resolve) return [];
+    const core = this.#core;
+    const wanted = core.UTF8ToString(core._halflit_wanted(this.#handle)).split("\n").filter((name) => name && !this.#asked.has(name));
+    wanted.forEach((name) => this.#asked.add(name));
+    const answers = await Promise.all(wanted.map(async (name) => [name, await bytes_of(this.#resolve(name))]));
+    return answers.filter(([, bytes]) => bytes !== null);
+  }
+
+  // Bytes of an environment become a file of the scene.
+  #with_environment(options) {
+    if (!is_bytes(options.env)) return options;
+    let name = this.#environments.get(options.env);
+    if (!name) {
+      name = `environment ${this.#environments.size + 1}`;
+      this.#environments.set(options.env, name);
+      const bytes = options.env instanceof ArrayBuffer ? new Uint8Array(options.env) : new Uint8Array(options.env.buffer, options.env.byteOffset, options.env.byteLength);
+      call(this.#core, (core) => add_file(core, this.#live(), name, bytes, false));
+    }
+    return { ...options, env: name };
+  }
+
+  #live() {
+    if (this.#handle === 0) throw usage("the scene was freed");
+    return this.#handle;
+  }
+
+  async render(options = {}) {
+    const all = { ...this.#defaults, ...options };
+    let picture = null;
+    await this.#do(all, (words) => {
+      const code = this.#core._halflit_draw(this.#live(), words);
+      if (code === 0) picture = new Picture(this.#core, this.#handle);
+      return code;
+    });
+    return picture;
+  }
+
+  async info({ parts = false, ...options } = {}) {
+    const all = { ...this.#defaults, ...options };
+    let text = "";
+    await this.#do(all, (words) => {
+      const code = this.#core._halflit_info(this.#live(), words, parts ? 1 : 0);
+      text = this.#core.UTF8ToString(this.#core._halflit_text(this.#handle));
+      return code;
+    });
+    return JSON.parse(text);
+  }
+
+  free() {
+    if (this.#handle === 0) return;
+    kForgotten?.unregister(this);
+    if (!this.#core.ended) this.#core._halflit_close(this.#handle);
+    this.#handle = 0;
+  }
+
+  [Symbol.dispose ?? Symbol.for("Symbol.dispose")]() {
+    this.free();
+  }
+}
+
+export const load = (source, options = {}) => Scene.open(source, options);
+
+export async function render(source, options = {}) {
+  const scene = await load(source, options);
+  try {
+    return await scene.render();
+  } finally {
+    scene.free();
+  }
+}
+
+// Bytes of memory that the module has taken from the system. It grows, and is given back when the module is.
+export async function memory() {
+  return (await running()).HEAPU8.length;
+}

@@ -1,0 +1,106 @@
+/** Bytes of a file. A text is UTF-8. A Response that is not `ok`, `null` and `undefined` mean that there is no such file. */
+export type FileSource = ArrayBuffer | ArrayBufferView | string | Blob | Response | null | undefined;
+/** Files beside the model, by the names that it gives: its buffers and textures. Or a function that is asked for each that is missing. */
+export type Files = Record<string, FileSource> | Map<string, FileSource> | ((name: string) => FileSource | Promise<FileSource>);
+/** The model's bytes (glTF, GLB, STL, PLY, OBJ, OFF, 3MF), or the name of a built-in scene: "demo", "sphere:5000", "lights:16". */
+export type ModelSource = ArrayBuffer | ArrayBufferView | Blob | Response | "demo" | `sphere:${number}` | `lights:${number}`;
+
+/** A picture's options: those of the program's command line. */
+export interface RenderOptions extends FlagOptions {
+  /** Size in pixels, both or none. */
+  width?: number;
+  height?: number;
+  /** More flags, as on the command line: "--view iso --samples 8". */
+  flags?: string | string[];
+}
+
+export interface LoadOptions extends RenderOptions {
+  files?: Files;
+  /** The model's name, for messages; its folder is where the names of `files` begin. */
+  name?: string;
+}
+
+/** As that of `halflit render --report`; docs/schema/report-1.schema.json describes it. */
+export interface Report {
+  schema: string;
+  halflit: string;
+  pixel_epoch: number;
+  size: [number, number];
+  pixel_hash: string;
+  isa: string;
+  samples: number;
+  load_ms: number;
+  prepare_ms: number;
+  render_ms: number;
+  triangles_drawn: number;
+  warnings: string[];
+  [key: string]: unknown;
+}
+
+/** As `halflit info --json` prints it; docs/schema/info-1.schema.json describes it. */
+export interface Info {
+  schema: string;
+  file?: Record<string, unknown>;
+  drawn: Record<string, number>;
+  bounds: { min: [number, number, number]; max: [number, number, number] } | null;
+  measures: Record<string, unknown>;
+  parts: Array<Record<string, unknown>>;
+  cameras: string[];
+  animations: Array<{ name: string; end_s: number; channels: number }>;
+  warnings: string[];
+  [key: string]: unknown;
+}
+
+export class Picture {
+  private constructor();
+  readonly width: number;
+  readonly height: number;
+  /** RGBA, rows from the top, not multiplied by alpha. */
+  readonly pixels: Uint8ClampedArray;
+  /** The hash that the program prints for these pixels. */
+  readonly hash: string;
+  readonly report: Report;
+  /** The file of the picture. */
+  png(): Uint8Array;
+  encode(format: "png" | "jpg" | "bmp" | "tga"): Uint8Array;
+}
+
+/** A loaded model. It stays prepared from one picture to the next. */
+export class Scene {
+  private constructor();
+  /** Draws it by the options of load() and these. */
+  render(options?: RenderOptions): Promise<Picture>;
+  /** Describes it; `parts`: with measures of each part. */
+  info(options?: RenderOptions & { parts?: boolean }): Promise<Info>;
+  /** Gives its memory back. */
+  free(): void;
+}
+
+/** `code` is the exit code that the program has for the error. */
+export class HalflitError extends Error {
+  readonly code: number;
+}
+
+/** A compiled module, its bytes, or a Response with them. */
+export type Code = WebAssembly.Module | ArrayBuffer | ArrayBufferView | Response;
+
+export interface InitOptions {
+  /** halflit.wasm. */
+  wasm?: Code | Promise<Code>;
+  /** halflit_wasm128.wasm, the kernels with SIMD. With `wasm` and without this, the scalar kernels draw. */
+  wasm128?: Code | Promise<Code>;
+  /** Whether to take the kernels with SIMD (default: where the host has it). */
+  simd?: boolean;
+}
+
+/** Starts the module, which the first scene does otherwise. With options: a new one, for scenes that are loaded from then on. */
+export function init(options?: InitOptions): Promise<{ version: string; pixelEpoch: number; isa: string }>;
+/** Loads a model. */
+export function load(source: ModelSource, options?: LoadOptions): Promise<Scene>;
+/** Loads a model, draws it and frees it. */
+export function render(source: ModelSource, options?: LoadOptions): Promise<Picture>;
+/** Bytes of memory that the module has taken. */
+export function memory(): Promise<number>;
+export const version: string;
+/** Releases with the same number have the same pixels. */
+export const pixelEpoch: number;

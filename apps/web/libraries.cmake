@@ -1,0 +1,100 @@
+# Decoders of models and pictures, compiled from Debian's sources that apps/web/sources.sh has unpacked in HALFLIT_WEB_LIBRARIES: only what
+# reads. Their SIMD versions stay out: they give the same bits.
+#   HALFLIT_WEB_HAS_LIBRARIES  1 or 0
+#   halflit_web_libraries      all of them, with their folders of headers; without the sources, nothing
+set(HALFLIT_WEB_LIBRARIES "" CACHE PATH "Folder of the libraries' sources; empty: the browser decodes JPEG and WebP, and nothing unpacks \
+3MF, Draco and meshopt")
+add_library(halflit_web_libraries INTERFACE)
+set(HALFLIT_WEB_HAS_LIBRARIES 0)
+if(NOT HALFLIT_WEB_LIBRARIES)
+    return()
+endif()
+set(HALFLIT_WEB_HAS_LIBRARIES 1)
+set(made ${CMAKE_CURRENT_BINARY_DIR}/libraries)
+
+# Folder of a package's source; its name has the version. The version's first three numbers go to `version`.
+function(halflit_web_source package folder version)
+    file(GLOB found ${HALFLIT_WEB_LIBRARIES}/${package}-[0-9]*)
+    list(LENGTH found count)
+    if(NOT count EQUAL 1)
+        message(FATAL_ERROR "halflit: expected one folder ${package}-VERSION in ${HALFLIT_WEB_LIBRARIES}, found ${count}")
+    endif()
+    string(REGEX MATCH "-([0-9.]+)[^/]*$" unused ${found})
+    set(${folder} ${found} PARENT_SCOPE)
+    set(${version} ${CMAKE_MATCH_1} PARENT_SCOPE)
+endfunction()
+
+# halflit_web_library(name FOLDERS.. SOURCES.. [DEFINES..]): warnings of others' code are not shown.
+function(halflit_web_library name)
+    cmake_parse_arguments(arg "" "" "FOLDERS;SOURCES;DEFINES" ${ARGN})
+    add_library(halflit_web_${name} STATIC ${arg_SOURCES})
+    target_include_directories(halflit_web_${name} SYSTEM PUBLIC ${arg_FOLDERS})
+    target_compile_definitions(halflit_web_${name} PRIVATE ${arg_DEFINES})
+    target_compile_options(halflit_web_${name} PRIVATE -w $<$<CONFIG:Release>:-O2>)
+    target_link_libraries(halflit_web_libraries INTERFACE halflit_web_${name})
+endfunction()
+
+halflit_web_source(libjpeg-turbo jpeg VERSION)
+set(JPEG_LIB_VERSION 62)  # as in Debian's library
+set(LIBJPEG_TURBO_VERSION_NUMBER 2001005)
+set(D_ARITH_CODING_SUPPORTED 1)
+set(MEM_SRCDST_SUPPORTED 1)
+set(BITS_IN_JSAMPLE 8)
+set(INLINE "inline")
+set(SIZE_T 4)
+foreach(name jconfig jconfigint jversion)
+    configure_file(${jpeg}/${name}.h.in ${made}/jpeg/${name}.h)
+endforeach()
+set(sources "")
+foreach(name jcomapi jdapimin jdapistd jdatasrc jdcoefct jdcolor jddctmgr jdhuff jdicc jdinput jdmainct jdmarker jdmaster jdmerge jdphuff
+        jdpostct jdsample jdarith jaricom jerror jidctflt jidctfst jidctint jidctred jquant1 jquant2 jutils jmemmgr jmemnobs jsimd_none)
+    list(APPEND sources ${jpeg}/${name}.c)
+endforeach()
+halflit_web_library(jpeg FOLDERS ${made}/jpeg ${jpeg} SOURCES ${sources})
+
+halflit_web_source(libdeflate deflate unused)
+set(sources "")
+foreach(name utils crc32 adler32 deflate_decompress deflate_compress zlib_compress)
+    list(APPEND sources ${deflate}/lib/${name}.c)
+endforeach()
+halflit_web_library(deflate FOLDERS ${deflate} SOURCES ${sources})
+
+# A parser's hash is salted with a random number; that of one program for one user may be the time.
+halflit_web_source(expat expat unused)
+file(WRITE ${made}/expat/expat_config.h "#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n#define XML_POOR_ENTROPY 1\n")
+set(sources "")
+foreach(name xmlparse xmlrole xmltok)
+    list(APPEND sources ${expat}/expat/lib/${name}.c)
+endforeach()
+halflit_web_library(expat FOLDERS ${made}/expat ${expat}/expat/lib SOURCES ${sources})
+
+halflit_web_source(draco draco unused)
+file(WRITE ${made}/draco/draco/draco_features.h "#define DRACO_MESH_COMPRESSION_SUPPORTED\n#define DRACO_NORMAL_ENCODING_SUPPORTED\n\
+#define DRACO_STANDARD_EDGEBREAKER_SUPPORTED\n#define DRACO_PREDICTIVE_EDGEBREAKER_SUPPORTED\n\
+#define DRACO_ATTRIBUTE_INDICES_DEDUPLICATION_SUPPORTED\n#define DRACO_ATTRIBUTE_VALUES_DEDUPLICATION_SUPPORTED\n\
+#define DRACO_BACKWARDS_COMPATIBILITY_SUPPORTED\n")
+set(sources "")
+foreach(folder attributes core mesh point_cloud metadata compression)
+    file(GLOB_RECURSE found ${draco}/src/draco/${folder}/*.cc)
+    list(FILTER found EXCLUDE REGEX "/[^/]*(_test|test_|encod)[^/]*$|kd_tree|mesh_(features|utils|splitter|stripifier|are_|misc|cleanup|conn)")
+    list(FILTER found EXCLUDE REGEX "soup_mesh|point_cloud_builder|property_table|structural_meta|compression/decode.cc|draco_compression")
+    list(APPEND sources ${found})
+endforeach()
+halflit_web_library(draco FOLDERS ${made}/draco ${draco}/src SOURCES ${sources})
+
+halflit_web_source(meshoptimizer meshopt unused)
+halflit_web_library(meshopt FOLDERS ${meshopt}/src SOURCES ${meshopt}/src/vertexcodec.cpp ${meshopt}/src/indexcodec.cpp)
+
+halflit_web_source(libwebp webp unused)
+file(GLOB sources ${webp}/src/dec/*.c)
+foreach(name alpha_processing cpu dec dec_clip_tables filters lossless rescaler upsampling yuv)
+    list(APPEND sources ${webp}/src/dsp/${name}.c)
+endforeach()
+foreach(name bit_reader color_cache filters huffman quant_levels_dec random rescaler thread utils)
+    set(file ${webp}/src/utils/${name}_utils.c)
+    if(name STREQUAL utils)
+        set(file ${webp}/src/utils/utils.c)
+    endif()
+    list(APPEND sources ${file})
+endforeach()
+halflit_web_library(webp FOLDERS ${webp} ${webp}/src SOURCES ${sources})

@@ -1,0 +1,158 @@
+// The calls, types, command line and example of the npm package.
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { check, end, native_hash, program, run, source, work, write_textured_model } from "../web/harness.mjs";
+import { begin, command, installed, must, project } from "./project.mjs";
+
+const kMostBytes = 1.5e6;
+const { bytes, halflit } = await begin();
+const { HalflitError, init, load, memory, render } = halflit;
+check("the tarball has at most 1.5 MB", bytes <= kMostBytes, bytes);
+const licences = readdirSync(join(installed, "licences")).map((name) => name.replace(".txt", ""));
+for (const name of ["draco", "expat", "libdeflate", "libjpeg-turbo", "libwebp", "meshoptimizer", "fmt", "xsimd", "expected", "stb", "nlohmann-json", "emscripten"])
+  check(`it has the licence of ${name}`, licences.includes(name));
+copyFileSync(join(source, "apps/examples/knot.glb"), join(work, "knot.glb"));
+write_textured_model();
+const knot = readFileSync(join(work, "knot.glb")), textured = readFileSync(join(work, "textured.gltf"));
+const refused = (work) => work.then(() => ({ message: "nothing was refused" }), (error) => error);
+
+// ---- options, pictures, scenes ------------------------------------------------------------------------------------------
+const flags = ["--view", "iso", "--samples", "8", "--light", "directional:dir=-1,-2,-1", "--light", "point:pos=2,2,2", "--own-lobes", "off"];
+const by_flags = await render(knot, { flags: `--size 160x120 ${flags.join(" ")}` });
+const by_names = await render(knot, { width: 160, height: 120, view: "iso", samples: 8, light: [flags[5], flags[7]], ownLobes: false });
+check("options by name are the flags", by_flags.hash === by_names.hash && by_flags.hash === native_hash([join(work, "knot.glb"), "--size", "160x120", ...flags]));
+check("a picture has its size", by_names.width === 160 && by_names.height === 120 && by_names.pixels.length === 4 * 160 * 120 && by_names.pixels instanceof Uint8ClampedArray);
+for (const format of ["png", "bmp", "tga"]) {
+  writeFileSync(join(work, `of_package.${format}`), by_names.encode(format));
+  run(["knot.glb", "--size", "160x120", ...flags, "-o", `of_program.${format}`, "--quiet"]);
+  check(`its .${format} is the program's`, command([program, "diff", join(work, `of_program.${format}`), join(work, `of_package.${format}`)]).status === 0);
+}
+check("its .jpg is a JPEG", Buffer.from(by_names.encode("jpg")).subarray(0, 3).toString("hex") === "ffd8ff");
+
+const scenes = await Promise.all(Array.from({ length: 20 }, (_, i) => load(i % 2 ? knot : "demo", { size: "64x48" })));
+const hashes = await Promise.all(scenes.map((scene) => scene.render({ azimuth: 30 })));
+check("twenty scenes at once do not mix", new Set(hashes.map((picture) => picture.hash)).size === 2 && hashes[0].hash === hashes[18].hash && hashes[1].hash === hashes[19].hash);
+const info = await scenes[1].info({ parts: true }), native_info = JSON.parse(run(["info", "knot.glb", "--json", "--parts", "--size", "64x48"]));
+check("info() is that of the program", JSON.stringify({ ...info, scene: "" }) === JSON.stringify({ ...native_info, scene: "" }));
+scenes.forEach((scene) => scene.free());
+check("a freed scene says so", /freed/.test((await refused(scenes[0].render())).message));
+const before = await memory();
+for (let i = 0; i < 300; ++i) await render(i % 3 ? knot : "demo", { size: "48x32" });
+check("three hundred scenes leave no memory behind", (await memory()) <= 1.25 * before, `${before} bytes before, ${await memory()} after`);
+
+// ---- files beside a model -----------------------------------------------------------------------------------------------
+const size = { width: 120, height: 90 }, names = ["textured.bin", "photo.jpg", "ball.png"];
+const native = native_hash([join(work, "textured.gltf"), "--size", "120x90"]);
+const files = Object.fromEntries(names.map((name) => [name, readFileSync(join(work, name))]));
+check("files by a map", (await render(textured, { ...size, files })).hash === native);
+check("files by a Map, in folders", (await render(textured, { ...size, name: "a/b.gltf", files: new Map(Object.entries(files).map(([name, file]) => [`a/${name}`, file])) })).hash === native);
+const asked = [];
+const late = await render(textured, { ...size, files: async (name) => { asked.push(name); await new Promise((done) => setTimeout(done, 5)); return files[name]; } });
+check("files by a function", late.hash === native && JSON.stringify(asked.sort()) === JSON.stringify([...names].sort()), asked);
+const without = await render(textured, { ...size, files: (name) => (name === "photo.jpg" ? null : files[name]) });
+check("a texture that is not there is warned of", without.hash !== native && without.report.warnings.some((line) => line.includes("photo.jpg")), without.report.warnings);
+const failing = await refused(render(textured, { ...size, files: () => { throw new Error("no disk"); } }));
+check("an error of that function is passed on", failing.message === "no disk");
+
+// ---- errors -------------------------------------------------------------------------------------------------------------
+for (const [what, attempt, code, words] of [
+  ["an unknown option", render("demo", { sampels: 4 }), 2, /unknown option sampels/],
+  ["an unknown flag", render("demo", { flags: "--sampels 4" }), 2, /did you mean --samples/],
+  ["a value out of range", render("demo", { samples: 3 }), 2, /--samples/],
+  ["half a size", render("demo", { width: 3 }), 2, /width and height/],
+  ["a switch with a value", render("demo", { ground: "yes" }), 2, /ground/],
+  ["an unknown scene", render("teapot"), 4, /teapot/],
+  ["bytes that are no model", render(new Uint8Array(99)), 3, /./],
+  ["a cut-off model", render(knot.subarray(0, 200)), 3, /./],
+  ["several views", render("demo", { view: "front,top" }), 2, /--view/],
+  ["a picture that is too large", render("demo", { size: "20000x20000" }), 5, /./],
+]) {
+  const error = await refused(attempt);
+  check(`${what} is refused`, error instanceof HalflitError && error.code === code && words.test(error.message), `${error.code}: ${error.message}`);
+}
+check("and the next picture is drawn", (await render(knot, { width: 160, height: 120, flags })).hash === by_flags.hash);
+const slow = await refused(render("sphere:2000000", { size: "1500x1500", samples: 16, timeout: 0.05 }));
+check("a timeout ends a picture", slow.code === 5, slow.message);
+
+// ---- hosts --------------------------------------------------------------------------------------------------------------
+writeFileSync(join(project, "by_name.js"), `import { render, init } from "halflit";
+const start = performance.now(), { isa } = await init(), started = performance.now();
+const { hash } = await render("demo", { width: 160, height: 120 });
+console.log(JSON.stringify({ isa, hash, start_ms: started - start, first_ms: performance.now() - started }));\n`);
+const demo = native_hash(["demo", "--size", "160x120"]);
+const told = (words) => JSON.parse(must(words));
+const in_node = told(["node", "by_name.js"]);
+check("Node.js finds the package by its name", in_node.hash === demo && in_node.isa === "wasm128", JSON.stringify(in_node));
+// A browser's fetch, and a worker's import of compiled code.
+writeFileSync(join(project, "fetch.mjs"), `import { readFile } from "node:fs/promises";
+globalThis.fetch = async (url) => new Response(await readFile(url), { headers: { "content-type": "application/wasm" } });\n`);
+check("its files for browsers draw", told(["node", "--conditions=browser", "--import", "./fetch.mjs", "by_name.js"]).hash === demo);
+writeFileSync(join(project, "hooks.mjs"), `import { readFileSync } from "node:fs";
+export async function load(url, context, next) {
+  if (!/\\.wasm(\\?module)?$/.test(url)) return next(url, context);
+  const path = JSON.stringify(new URL(url).pathname);
+  return { format: "module", shortCircuit: true, source: \`import { readFileSync } from "node:fs"; export default new WebAssembly.Module(readFileSync(\${path}));\` };
+}\n`);
+writeFileSync(join(project, "wasm.mjs"), `import { register } from "node:module";\nregister("./hooks.mjs", import.meta.url);\n`);
+for (const condition of ["workerd", "edge-light"])
+  check(`its files for ${condition} draw`, told(["node", `--conditions=${condition}`, "--import", "./wasm.mjs", "by_name.js"]).hash === demo);
+writeFileSync(join(project, "core.js"), `import { readFile } from "node:fs/promises"; import { init, render } from "halflit/core";
+await init({ wasm: await readFile(new URL(import.meta.resolve("halflit/halflit.wasm"))) });
+console.log(JSON.stringify(await render("demo", { width: 160, height: 120 }).then(({ hash, report }) => ({ hash, isa: report.isa }))));\n`);
+const by_core = told(["node", "core.js"]);
+check("code that the host gives is taken", by_core.hash === demo && by_core.isa === "scalar");
+
+copyFileSync(join(installed, "examples/worker.js"), join(project, "worker.js"));
+writeFileSync(join(project, "served.js"), `import worker from "./worker.js"; import { readFileSync } from "node:fs"; import { memory } from "halflit";
+const ask = (body, query = "") => worker.fetch(new Request("https://thumbnails.test/" + query, { method: "POST", body }));
+const knot = readFileSync(${JSON.stringify(join(work, "knot.glb"))}), start = performance.now();
+const first = await ask(knot, "?width=200&height=150&view=iso"), png = new Uint8Array(await first.arrayBuffer()), cold_ms = performance.now() - start;
+const again = performance.now();
+await ask(knot, "?width=200&height=150&view=iso");
+const warm_ms = performance.now() - again, statuses = [(await ask("no model")).status, (await ask(knot, "?view=sideways")).status, (await worker.fetch(new Request("https://thumbnails.test/"))).status];
+console.log(JSON.stringify({ status: first.status, type: first.headers.get("content-type"), tag: first.headers.get("etag"), png: [...png.slice(1, 4)], statuses, cold_ms, warm_ms, memory_bytes: await memory() }));\n`);
+const served = told(["node", "--conditions=workerd", "--import", "./wasm.mjs", "served.js"]);
+const thumbnail = native_hash([join(work, "knot.glb"), "--size", "200x150", "--view", "iso", "--samples", "4"]);
+check("the example worker draws", served.status === 200 && served.type === "image/png" && served.tag === `"${thumbnail}"` && String(served.png) === "80,78,71", JSON.stringify(served));
+check("the example worker refuses", String(served.statuses) === "400,400,405", served.statuses);
+check("the example worker takes at most 64 MB", served.memory_bytes <= 64 << 20, served.memory_bytes);
+
+// ---- the command line ---------------------------------------------------------------------------------------------------
+const cli = (...words) => command(["npx", "--no-install", "halflit", ...words], { cwd: project });
+mkdirSync(join(project, "models"));
+for (const name of ["textured.gltf", ...names]) copyFileSync(join(work, name), join(project, "models", name));
+const drawn = cli("models/textured.gltf", "out.png", "--size", "120x90", "--view=iso", "--report", "report.json");
+check("npx halflit draws", drawn.status === 0 && existsSync(join(project, "out.png")), drawn.stderr);
+const report = JSON.parse(readFileSync(join(project, "report.json"), "utf8"));
+check("its picture is the program's", report.pixel_hash === native_hash([join(work, "textured.gltf"), "--size", "120x90", "--view", "iso"]));
+writeFileSync(join(project, "secret.jpg"), files["photo.jpg"]);
+writeFileSync(join(project, "models/thief.gltf"), textured.toString().replace("photo.jpg", "../secret.jpg"));
+check("a model reads nothing outside of its folder", /secret\.jpg/.test(cli("models/thief.gltf", "-o", "thief.png", "--size", "32x32").stderr));
+for (const [words, code] of [[["none.glb"], 4], [["demo", "x.png", "--sampels", "3"], 2], [["demo", "x.gif"], 2], [["models/photo.jpg", "x.png"], 3], [["a", "b", "c"], 2]])
+  check(`halflit ${words.join(" ")} ends with ${code}`, cli(...words).status === code, cli(...words).stderr.trim());
+check("--help lists the flags", /--max-error CODES/.test(cli("--help").stdout));
+
+// ---- types --------------------------------------------------------------------------------------------------------------
+writeFileSync(join(project, "typed.ts"), `import { HalflitError, init, load, render, type Picture, type RenderOptions } from "halflit";
+const options: RenderOptions = { width: 320, height: 240, view: "iso", samples: 8, shadows: "hard", ownLobes: false, light: ["a", "b"], cameraPosition: [1, 2, 3], ground: true, maxError: 0.5 };
+const picture: Picture = await render(new Uint8Array(1), { ...options, files: async (name) => (await fetch(name)).arrayBuffer() });
+const pixels: Uint8ClampedArray = picture.pixels, file: Uint8Array = picture.png();
+const scene = await load("sphere:100", { files: { "a.bin": new ArrayBuffer(3) } });
+const triangles: number = (await scene.info({ parts: true })).drawn.triangles_drawn;
+// @ts-expect-error: no such option
+await scene.render({ sampels: 3 });
+// @ts-expect-error: no such shadows
+await scene.render({ shadows: "purple" });
+scene.free();
+if (new HalflitError("").code === 5) await init({ simd: false });
+console.log(pixels, file, triangles);\n`);
+const typescript = command(["npm", "install", "--no-save", "--no-audit", "--no-fund", "--fetch-timeout=30000", "typescript@5"]);
+if (typescript.status !== 0) console.log("skipped: there is no TypeScript to check the types with");
+else {
+  const types = command(["npx", "--no-install", "tsc", "--noEmit", "--strict", "--target", "es2022", "--module", "nodenext", "--lib", "es2022,dom", "typed.ts"]);
+  check("the types are right", types.status === 0, types.stdout);
+}
+console.log(`tarball ${bytes} bytes, start ${in_node.start_ms.toFixed(0)} ms, first picture ${in_node.first_ms.toFixed(0)} ms; worker: first answer ` +
+  `${served.cold_ms.toFixed(0)} ms, next ${served.warm_ms.toFixed(0)} ms, ${served.memory_bytes >> 20} MiB`);
+end();

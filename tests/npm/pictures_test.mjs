@@ -1,0 +1,97 @@
+// Pictures of the npm package against the program's, by hash: scenes of tests/web, formats and decoders, and the models of HALFLIT_ASSETS.
+import { copyFileSync, existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { check, end, native_hash, run, source, work, write_points, write_squares, write_textured_model } from "../web/harness.mjs";
+import { begin } from "./project.mjs";
+import { zip_of } from "./zip.mjs";
+
+const { halflit } = await begin();
+const beside = (folder) => (name) => {
+  const place = join(folder, name);
+  return existsSync(place) ? readFileSync(place) : null;
+};
+const is_built_in = (name) => /^(demo|sphere:|lights:)/.test(name);
+const hash_of = async (scene, flags, folder = work) => {
+  try {
+    const source = is_built_in(scene) ? scene : readFileSync(join(folder, scene));
+    return (await halflit.render(source, { flags, files: beside(dirname(join(folder, scene))) })).hash;
+  } catch (error) {
+    return error.message;
+  }
+};
+async function same(scene, flags, folder = work) {
+  const expected = native_hash([join(is_built_in(scene) ? "" : folder, scene), ...flags]), found = await hash_of(scene, flags, folder);
+  check([scene, ...flags].join(" "), found === expected, `${found}, native ${expected}`);
+  return found === expected;
+}
+
+// A tetrahedron with a colour for each corner of a face.
+function write_3mf() {
+  const model = `<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>
+    <basematerials id="1"><base name="a" displaycolor="#E04020"/><base name="b" displaycolor="#2060E0"/></basematerials>
+    <object id="2" type="model" pid="1" pindex="0"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/><vertex x="0" y="10" z="0"/>
+    <vertex x="0" y="0" z="10"/></vertices><triangles><triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3" p1="1"/>
+    <triangle v1="1" v2="2" v3="3"/><triangle v1="2" v2="0" v3="3" p1="1"/></triangles></mesh></object></resources><build><item objectid="2"/></build></model>`;
+  const relations = `<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r"
+    Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>`;
+  writeFileSync(join(work, "part.3mf"), zip_of({ "_rels/.rels": relations, "3D/3dmodel.model": model }));
+}
+
+// A WebP picture on a card.
+function write_webp_model() {
+  run(["demo", "--size", "96x80", "-o", "photo.webp", "--quiet"]);
+  write_squares("card", {
+    nodes: [{ mesh: 0 }], materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 } }],
+    extensionsUsed: ["EXT_texture_webp"], textures: [{ extensions: { EXT_texture_webp: { source: 0 } } }], images: [{ uri: "photo.webp", mimeType: "image/webp" }],
+  });
+}
+
+copyFileSync(join(source, "apps/examples/knot.glb"), join(work, "knot.glb"));
+write_textured_model();
+write_points();
+write_3mf();
+write_webp_model();
+const scenes = readFileSync(join(source, "tests/web/scenes.txt"), "utf8").split("\n").filter((line) => line && !line.startsWith("#"));
+for (const isa of ["wasm128", "scalar"]) {
+  const started = await halflit.init({ simd: isa === "wasm128" });
+  check(`the module is of ${isa}`, started.isa === isa, started.isa);
+  for (const line of isa === "scalar" ? scenes.slice(0, 12) : scenes) {
+    const [scene, ...flags] = line.split(" ");
+    await same(scene, flags);
+  }
+  await same("part.3mf", ["--size", "200x160"]);
+  await same("card.gltf", ["--size", "200x160"]);
+  await same("knot.glb", ["--size", "200x160", "--view", "iso", "--section", "x=50%", "--edges", "feature"]);
+  await same("textured.gltf", ["--size", "160x120", "--highlight", "0", "--background", "transparent"]);
+}
+
+// Pictures of one scene, in an order with each kind of change, are those of scenes of their own.
+await halflit.init({ simd: true });
+const scene = await halflit.load(readFileSync(join(work, "knot.glb")));
+const kChanges = [{ view: "iso" }, { view: "top", fit: 10 }, { view: "front", ortho: true }, { azimuth: 40 }, { view: "iso", edges: "feature" },
+  { view: "iso" }, { light: "directional:dir=-1,-2,-1", noSceneLights: true }, { cameraOrbit: "30deg 60deg auto" }, { lineWidth: 3, lobe: "valve" }, { hide: "0" }, {}];
+for (const change of kChanges) {
+  const options = { width: 160, height: 120, ...change };
+  const [kept, alone] = [await scene.render(options).catch((error) => error), await halflit.render(readFileSync(join(work, "knot.glb")), options).catch((error) => error)];
+  check(`one scene, ${JSON.stringify(change)}`, kept.hash === alone.hash && kept.message === alone.message, `${kept.hash ?? kept.message}, alone ${alone.hash ?? alone.message}`);
+}
+scene.free();
+
+const assets = process.env.HALFLIT_ASSETS;
+if (assets) {
+  let equal = 0, count = 0;
+  for (const name of readdirSync(join(assets, "models"))) {
+    const folder = join(assets, "models", name);
+    for (const file of readdirSync(folder, { recursive: true }).filter((path) => /\.(glb|gltf|stl|ply|obj|3mf)$/i.test(path))) {
+      ++count;
+      equal += (await same(file, ["--size", "160x120"], folder)) ? 1 : 0;
+    }
+  }
+  for (const sky of readdirSync(join(assets, "environments")).filter((file) => file.endsWith(".hdr")).slice(0, 2)) {
+    const place = join(assets, "environments", sky), expected = native_hash(["demo", "--size", "160x120", "--env", place]);
+    const found = (await halflit.render("demo", { size: "160x120", env: readFileSync(place) })).hash;
+    check(`the environment ${sky}`, found === expected, `${found}, native ${expected}`);
+  }
+  console.log(`${equal} of ${count} models are equal; the module has ${(await halflit.memory()) >> 20} MiB`);
+} else console.log("HALFLIT_ASSETS is not set: no shared models");
+end();
