@@ -10,5 +10,8 @@ foreach(language C CXX)
     set(CMAKE_${language}_LINKER_LAUNCHER env NODE_PATH=/usr/share/nodejs)  # Debian's acorn, for a Node.js that is not Debian's
 endforeach()
 
+# Exceptions and longjmp by WebAssembly's own instructions: calls through JavaScript, which are the default, are larger and slower.
+set(HALFLIT_EXCEPTION_FLAGS -fwasm-exceptions -sSUPPORT_LONGJMP=wasm)
+
 include(${CMAKE_CURRENT_LIST_DIR}/header_only.cmake)
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-sALLOW_MEMORY_GROWTH=1")

@@ -55,6 +55,7 @@ function(halflit_layer name)
         POSITION_INDEPENDENT_CODE ON
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:halflit_flags>)
+    target_compile_options(${target} PRIVATE ${HALFLIT_EXCEPTION_FLAGS})  # of the toolchain
     target_compile_features(${target} PUBLIC cxx_std_20)
     if(HALFLIT_SHARED)
         target_compile_definitions(${target} PRIVATE HALFLIT_BUILDING_SHARED)

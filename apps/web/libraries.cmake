@@ -36,7 +36,7 @@ endfunction()
 
 halflit_web_source(libjpeg-turbo jpeg VERSION)
 set(JPEG_LIB_VERSION 62)  # as in Debian's library
-set(LIBJPEG_TURBO_VERSION_NUMBER 2001005)
+set(LIBJPEG_TURBO_VERSION_NUMBER 2000000)  # no one asks
 set(D_ARITH_CODING_SUPPORTED 1)
 set(MEM_SRCDST_SUPPORTED 1)
 set(BITS_IN_JSAMPLE 8)
@@ -61,7 +61,7 @@ halflit_web_library(deflate FOLDERS ${deflate} SOURCES ${sources})
 
 # A parser's hash is salted with a random number; that of one program for one user may be the time.
 halflit_web_source(expat expat unused)
-file(WRITE ${made}/expat/expat_config.h "#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n#define XML_POOR_ENTROPY 1\n")
+file(CONFIGURE OUTPUT ${made}/expat/expat_config.h @ONLY CONTENT "#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n#define XML_POOR_ENTROPY 1\n")
 set(sources "")
 foreach(name xmlparse xmlrole xmltok)
     list(APPEND sources ${expat}/expat/lib/${name}.c)
@@ -69,7 +69,7 @@ endforeach()
 halflit_web_library(expat FOLDERS ${made}/expat ${expat}/expat/lib SOURCES ${sources})
 
 halflit_web_source(draco draco unused)
-file(WRITE ${made}/draco/draco/draco_features.h "#define DRACO_MESH_COMPRESSION_SUPPORTED\n#define DRACO_NORMAL_ENCODING_SUPPORTED\n\
+file(CONFIGURE OUTPUT ${made}/draco/draco/draco_features.h @ONLY CONTENT "#define DRACO_MESH_COMPRESSION_SUPPORTED\n#define DRACO_NORMAL_ENCODING_SUPPORTED\n\
 #define DRACO_STANDARD_EDGEBREAKER_SUPPORTED\n#define DRACO_PREDICTIVE_EDGEBREAKER_SUPPORTED\n\
 #define DRACO_ATTRIBUTE_INDICES_DEDUPLICATION_SUPPORTED\n#define DRACO_ATTRIBUTE_VALUES_DEDUPLICATION_SUPPORTED\n\
 #define DRACO_BACKWARDS_COMPATIBILITY_SUPPORTED\n")

@@ -72,8 +72,11 @@ for (const [what, attempt, code, words] of [
   check(`${what} is refused`, error instanceof HalflitError && error.code === code && words.test(error.message), `${error.code}: ${error.message}`);
 }
 check("and the next picture is drawn", (await render(knot, { width: 160, height: 120, flags })).hash === by_flags.hash);
-const slow = await refused(render("sphere:2000000", { size: "1500x1500", samples: 16, timeout: 0.05 }));
-check("a timeout ends a picture", slow.code === 5, slow.message);
+const slow = await refused(render("demo", { size: "1500x1500", samples: 16, skyShadows: 64, timeout: 0.05 }));
+check("a timeout ends a picture", slow.code === 5 && /time/.test(slow.message), slow.message);
+const full = await refused(render("sphere:40000000", { size: "64x64" }));
+check("the end of memory is an error", full.code === 5 && full.message.includes("out of memory"), full.message);
+check("and the next scene has a new module", (await render(knot, { width: 160, height: 120, flags })).hash === by_flags.hash && (await memory()) < 1 << 28, await memory());
 
 // ---- hosts --------------------------------------------------------------------------------------------------------------
 writeFileSync(join(project, "by_name.js"), `import { render, init } from "halflit";

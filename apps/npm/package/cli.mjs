@@ -55,7 +55,7 @@ function read(path) {
   try {
     return readFileSync(path === "-" ? 0 : path);
   } catch (error) {
-    throw new HalflitError(`${path}: ${error.message}`, 3);
+    throw new HalflitError(`${path}: ${error.message}`, 4);
   }
 }
 

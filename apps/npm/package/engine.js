@@ -83,12 +83,12 @@ export function init(options) {
 async function running() {
   if (!started) await init();
   const core = await started;
-  if (!core.ended) return core;
+  if (!core.ended && !core.full) return core;
   started = null;
   return running();
 }
 
-// Calls the module. What it throws (an abort, or memory that cannot grow) ends it: its scenes are lost, and new ones get a new module.
+// Calls the module. What it throws (a trap, or memory that cannot grow) ends it: its scenes are lost, and new ones get a new module.
 function call(core, work) {
   if (core.ended) throw new HalflitError("the module has ended, and its scenes with it", kLimit);
   try {
@@ -268,8 +268,11 @@ export class Scene {
         call(core, () => found.forEach(([name, bytes]) => add_file(core, this.#live(), name, bytes, true)));
         continue;
       }
-      if (code !== 0) throw new HalflitError(core.UTF8ToString(core._halflit_text(handle)), code);
-      return;
+      if (code === 0) return;
+      const message = core.UTF8ToString(core._halflit_text(handle));
+      // Memory never shrinks: new scenes get a new module, and this one goes with its last scene.
+      if (code === kLimit && message.includes("out of memory")) core.full = true;
+      throw new HalflitError(message, code);
     }
   }
 
