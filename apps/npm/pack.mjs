@@ -23,23 +23,9 @@ return halflit_module;
 export default halflit_module;
 `);
 cpSync(join(bin, "halflit_npm_main.wasm"), join(output, "halflit.wasm"));
-cpSync(join(bin, "halflit_npm_wasm128.wasm"), join(output, "halflit_wasm128.wasm"));
+cpSync(join(bin, "halflit_wasm128.wasm"), join(output, "halflit_wasm128.wasm"));
 
-// What the kernels need, by the linker's section dylink.0: a type, its length, and as LEB128 bytes, log2 of their alignment, functions.
-function needs_of(file) {
-  const module = new WebAssembly.Module(readFileSync(file)), section = new Uint8Array(WebAssembly.Module.customSections(module, "dylink.0")[0]);
-  let at = 2;
-  const number = () => {
-    let value = 0, shift = 0;
-    for (; ; shift += 7) {
-      value |= (section[at] & 127) << shift;
-      if (section[at++] < 128) return value;
-    }
-  };
-  if (section[0] !== 1) throw new Error("dylink.0: expected the memory first");
-  return { bytes: number(), align: 1 << number(), functions: number() };
-}
-const kStackBytes = 1 << 16;  // twenty times the largest frame of a kernel
+writeFileSync(join(output, "kernels.js"), text(source, "apps/web/page/kernels.js").replace("async function start_module", "export async function start_module"));
 
 // ---- the flags, from the module's own table -----------------------------------------------------------------------------
 const { default: halflit_module } = await import(pathToFileURL(join(output, "module.js")));
@@ -47,7 +33,6 @@ const core = await halflit_module({ wasmBinary: readFileSync(join(output, "halfl
 const table = JSON.parse(core.UTF8ToString(core._halflit_flags()));
 writeFileSync(join(output, "tables.js"), `// Made by pack.mjs, from the module's own tables.
 export const version = ${JSON.stringify(table.version)}, pixelEpoch = ${table.pixel_epoch};
-export const kernels = ${JSON.stringify({ ...needs_of(join(output, "halflit_wasm128.wasm")), stack: kStackBytes })};
 export const flags = ${JSON.stringify(table.flags).replaceAll('},{"names"', '},\n  {"names"')};
 `);
 

@@ -61,7 +61,12 @@ halflit_web_library(deflate FOLDERS ${deflate} SOURCES ${sources})
 
 # A parser's hash is salted with a random number; that of one program for one user may be the time.
 halflit_web_source(expat expat unused)
-file(CONFIGURE OUTPUT ${made}/expat/expat_config.h @ONLY CONTENT "#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n#define XML_POOR_ENTROPY 1\n")
+file(CONFIGURE OUTPUT ${made}/expat/expat_config.h @ONLY CONTENT
+"#define XML_NS 1
+#define XML_DTD 1
+#define XML_CONTEXT_BYTES 1024
+#define XML_POOR_ENTROPY 1
+")
 set(sources "")
 foreach(name xmlparse xmlrole xmltok)
     list(APPEND sources ${expat}/expat/lib/${name}.c)
@@ -69,14 +74,20 @@ endforeach()
 halflit_web_library(expat FOLDERS ${made}/expat ${expat}/expat/lib SOURCES ${sources})
 
 halflit_web_source(draco draco unused)
-file(CONFIGURE OUTPUT ${made}/draco/draco/draco_features.h @ONLY CONTENT "#define DRACO_MESH_COMPRESSION_SUPPORTED\n#define DRACO_NORMAL_ENCODING_SUPPORTED\n\
-#define DRACO_STANDARD_EDGEBREAKER_SUPPORTED\n#define DRACO_PREDICTIVE_EDGEBREAKER_SUPPORTED\n\
-#define DRACO_ATTRIBUTE_INDICES_DEDUPLICATION_SUPPORTED\n#define DRACO_ATTRIBUTE_VALUES_DEDUPLICATION_SUPPORTED\n\
-#define DRACO_BACKWARDS_COMPATIBILITY_SUPPORTED\n")
+file(CONFIGURE OUTPUT ${made}/draco/draco/draco_features.h @ONLY CONTENT
+"#define DRACO_MESH_COMPRESSION_SUPPORTED
+#define DRACO_NORMAL_ENCODING_SUPPORTED
+#define DRACO_STANDARD_EDGEBREAKER_SUPPORTED
+#define DRACO_PREDICTIVE_EDGEBREAKER_SUPPORTED
+#define DRACO_ATTRIBUTE_INDICES_DEDUPLICATION_SUPPORTED
+#define DRACO_ATTRIBUTE_VALUES_DEDUPLICATION_SUPPORTED
+#define DRACO_BACKWARDS_COMPATIBILITY_SUPPORTED
+")
 set(sources "")
 foreach(folder attributes core mesh point_cloud metadata compression)
     file(GLOB_RECURSE found ${draco}/src/draco/${folder}/*.cc)
-    list(FILTER found EXCLUDE REGEX "/[^/]*(_test|test_|encod)[^/]*$|kd_tree|mesh_(features|utils|splitter|stripifier|are_|misc|cleanup|conn)")
+    list(FILTER found EXCLUDE REGEX "/[^/]*(_test|test_|encod)[^/]*$|kd_tree")
+    list(FILTER found EXCLUDE REGEX "mesh_(features|utils|splitter|stripifier|are_|misc|cleanup|conn)")
     list(FILTER found EXCLUDE REGEX "soup_mesh|point_cloud_builder|property_table|structural_meta|compression/decode.cc|draco_compression")
     list(APPEND sources ${found})
 endforeach()

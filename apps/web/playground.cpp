@@ -1,6 +1,7 @@
 // The functions that the page's worker calls. Texts are UTF-8 and end with a zero byte; a text that is returned lives until the next call.
 #include "apps/web/browser_pictures.hpp"
 #include "apps/web/dropped_files.hpp"
+#include "apps/web/kernels_apart.hpp"
 #include "apps/web/picture_session.hpp"
 #include "apps/web/session_report.hpp"
 #include "halflit/lobe.hpp"
@@ -62,6 +63,9 @@ extern "C" {
 /// Memory for what the page hands over.
 EMSCRIPTEN_KEEPALIVE void* halflit_allocate(int bytes) { return std::malloc(static_cast<std::size_t>(bytes)); }
 EMSCRIPTEN_KEEPALIVE void halflit_free(void* memory) { std::free(memory); }
+
+/// Before the first picture: addresses of the tables of kernels that the other module exports.
+EMSCRIPTEN_KEEPALIVE void halflit_use_wasm128(const void* raster, const void* shade) { web::use_wasm128(raster, shade); }
 
 /// flags: one word a line.
 EMSCRIPTEN_KEEPALIVE int halflit_draw(const char* scene, const char* flags) {

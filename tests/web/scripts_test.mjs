@@ -141,7 +141,7 @@ async function test_worker() {
     WebAssembly, halflit_module: async () => core, postMessage: (answer) => answers.push(answer), createImageBitmap: async () => bitmap,
     OffscreenCanvas: class { getContext() { return { drawImage() {}, getImageData: (x, y, width, height) => ({ width, height }) }; } },
   };
-  const worker = load(["worker.js"], globals, ["onmessage", "plain_jpeg", "decoded", "queue"]);
+  const worker = load(["kernels.js", "worker.js"], globals, ["onmessage", "plain_jpeg", "decoded", "queue"]);
   const ask = async (task) => {
     worker.onmessage({ data: { ...task, id: answers.length } });
     await worker.queue;

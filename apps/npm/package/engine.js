@@ -1,6 +1,7 @@
 // Scenes and pictures, by the WebAssembly module. The files node.js, browser.js, workerd.js and edge.js say where its code is.
 import halflit_module from "./module.js";
-import { flags, kernels, pixelEpoch, version } from "./tables.js";
+import { start_module } from "./kernels.js";
+import { flags, pixelEpoch, version } from "./tables.js";
 
 const kSimdProbe = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
 const kRounds = 16;  // of files that name other files
@@ -36,37 +37,10 @@ async function compiled(code) {
   return WebAssembly.compile(given);
 }
 
-const of_kind = (exports, kind) => Object.values(exports).find((value) => value instanceof kind);
-
-// Puts the kernels of wasm128, a module of their own, into the memory and the table of functions of the other one. They have a stack of
-// their own, and call nothing.
-async function add_kernels(core, exports, module) {
-  const table = of_kind(exports, WebAssembly.Table), memory = of_kind(exports, WebAssembly.Memory);
-  const room = allocated(core, kernels.bytes + kernels.align), stack = allocated(core, kernels.stack + 16);
-  const place = Math.ceil(room / kernels.align) * kernels.align, top = (stack + kernels.stack) & ~15;
-  core.HEAPU8.fill(0, room, room + kernels.bytes + kernels.align);
-  const global = (value, mutable = false) => new WebAssembly.Global({ value: "i32", mutable }, value);
-  const { exports: found } = await WebAssembly.instantiate(module, { env: {
-    memory, __indirect_function_table: table, __memory_base: global(place), __table_base: global(table.grow(kernels.functions)), __stack_pointer: global(top, true),
-  } });
-  core._halflit_use_wasm128(found.halflit_raster_kernels(), found.halflit_shade_kernels());
-}
-
 async function start({ wasm, wasm128, simd } = {}) {
   const has_simd = simd ?? WebAssembly.validate(kSimdProbe), second = !has_simd ? null : wasm128 ?? (wasm ? null : code_of_host("halflit_wasm128.wasm"));
   const [module, of_kernels] = await Promise.all([compiled(wasm ?? code_of_host("halflit.wasm")), second && compiled(second)]);
-  let exports = null;
-  const core = await new Promise((resolve, reject) => {
-    const instantiateWasm = (imports, done) => {
-      WebAssembly.instantiate(module, imports).then((instance) => {
-        exports = instance.exports;
-        done(instance, module);
-      }).catch(reject);
-      return {};
-    };
-    halflit_module({ instantiateWasm, print() {}, printErr() {} }).then(resolve, reject);
-  });
-  if (of_kernels) await add_kernels(core, exports, of_kernels);
+  const core = await start_module(halflit_module, module, of_kernels);
   core.ended = false;
   return core;
 }

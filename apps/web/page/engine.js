@@ -14,12 +14,12 @@ function module_bytes(name) {
 
 // Tasks are done in the order of ask(). An engine that ended is not used again.
 class Engine {
-  // name: "simd" or "scalar".
+  // name: "simd" or "scalar", of the kernels.
   constructor(name) {
     this.ended = false;
     this.waiting = new Map();
     this.count = 0;
-    const code = ["module_code", "worker_code"].map((id) => document.getElementById(id).textContent).join("\n");
+    const code = ["module_code", "kernels_code", "worker_code"].map((id) => document.getElementById(id).textContent).join("\n");
     const address = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
     this.worker = new Worker(address);
     URL.revokeObjectURL(address);
@@ -30,7 +30,8 @@ class Engine {
       if (answer.ended) this.stop(answer);
     };
     this.worker.onerror = (event) => this.stop({ error: event.message || "the worker ended", ended: true });
-    this.started = module_bytes(name).then((wasm) => this.send("start", { wasm })).catch((error) => {
+    const parts = [module_bytes("main_wasm"), name === "simd" ? module_bytes("kernels_wasm") : null];
+    this.started = Promise.all(parts).then(([wasm, wasm128]) => this.send("start", { wasm, wasm128 })).catch((error) => {
       this.stop({ error: `this browser cannot start the library: ${error.message}`, ended: true });
       return this.last_answer;
     });

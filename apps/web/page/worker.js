@@ -1,4 +1,4 @@
-// Draws, in a thread of its own. It follows the module's own code, which defines halflit_module(). One message is answered at a time.
+// Draws, in a thread of its own. It follows the module's own code, which defines halflit_module(), and kernels.js. One message is answered at a time.
 "use strict";
 
 let core = null;  // the module
@@ -89,7 +89,8 @@ async function picture_of(call, task) {
 
 const tasks = {
   async start(task) {
-    core = await halflit_module({ wasmBinary: task.wasm });
+    const [module, kernels] = await Promise.all([task.wasm, task.wasm128].map((bytes) => bytes && WebAssembly.compile(bytes)));
+    core = await start_module(halflit_module, module, kernels);
     return {};
   },
   draw: (task) => picture_of(core._halflit_draw, task),
