@@ -25,7 +25,7 @@ apt() {
     apt-get -qq -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$work/parts" -o Dir::State::Lists="$work/lists" \
         -o Dir::Cache="$work/cache" -o APT::Sandbox::User="$(id -un)" "$@"
 }
-apt update
+apt update || true  # an archive without sources is no harm
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-stable}")
 cd "$folder"
 for package in "${missing[@]}"; do
