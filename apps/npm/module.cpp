@@ -9,6 +9,7 @@
 #include "halflit/image.hpp"
 
 #include <emscripten.h>
+#include <emscripten/heap.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -119,6 +120,7 @@ EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
         cli::Json report = cli::report_head("report");
         report["scene"] = job->source.name;
         cli::add_frame(report, *job, handle->session.rendered(), handle->session.picture());
+        report["peak_memory_bytes"] = emscripten_get_heap_size();  // never shrinks
         handle->text = cli::to_text(report, true);
         return {};
     });

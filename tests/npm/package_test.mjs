@@ -23,6 +23,7 @@ const by_flags = await render(knot, { flags: `--size 160x120 ${flags.join(" ")}`
 const by_names = await render(knot, { width: 160, height: 120, view: "iso", samples: 8, light: [flags[5], flags[7]], ownLobes: false });
 check("options by name are the flags", by_flags.hash === by_names.hash && by_flags.hash === native_hash([join(work, "knot.glb"), "--size", "160x120", ...flags]));
 check("a picture has its size", by_names.width === 160 && by_names.height === 120 && by_names.pixels.length === 4 * 160 * 120 && by_names.pixels instanceof Uint8ClampedArray);
+check("its report has the memory", by_names.report.peak_memory_bytes >= 1 << 24 && by_names.report.peak_memory_bytes === (await memory()), by_names.report.peak_memory_bytes);
 for (const format of ["png", "bmp", "tga"]) {
   writeFileSync(join(work, `of_package.${format}`), by_names.encode(format));
   run(["knot.glb", "--size", "160x120", ...flags, "-o", `of_program.${format}`, "--quiet"]);
