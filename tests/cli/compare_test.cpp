@@ -1,8 +1,8 @@
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_models.hpp"
+#include "tests/support/catch.hpp"
 
 #include <nlohmann/json.hpp>
-#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <array>
@@ -138,6 +138,29 @@ TEST_CASE("compare: a hole is told by pixels, edges and the surface's distance",
     check_distance(json, 0.5);  // the middle of the side that lacks, from its border
     CHECK(json["parts"][0]["change"] == "geometry");
     CHECK(changed(json) > 0);
+}
+
+TEST_CASE("compare: a change that the usual sides hide is shown from another side", "[cli][compare]") {
+    const std::vector<Corners> whole = box({0, 0, 0}, {2, 1, 1});
+    struct Dent {
+        std::size_t axis;  // of the side at 0 that is pressed in
+        Corner ring[4], deepest;
+        const char* from;
+    };
+    for (const Dent& dent : {Dent{0, {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}}, {0.3, 0.5, 0.5}, "left"},
+                             Dent{2, {{0, 0, 0}, {0, 1, 0}, {2, 1, 0}, {2, 0, 0}}, {1, 0.5, 0.3}, "bottom"}}) {
+        std::vector<Corners> dented;
+        for (const Corners& triangle : whole)
+            if (std::any_of(triangle.begin(), triangle.end(), [&](const Corner& p) { return p[dent.axis] > 0; })) dented.push_back(triangle);
+        for (std::size_t i = 0; i < 4; ++i) dented.push_back({dent.ring[i], dent.ring[(i + 1) % 4], dent.deepest});
+        const Pair pair(whole, dented);
+        INFO(dent.from);
+        CHECK(changed(pair.compare(1, {"--view", "front,right,top,iso"})) == 0);
+        const Json json = pair.compare(1);
+        REQUIRE(json["views"].size() == 5);
+        CHECK(json["views"][4]["name"] == dent.from);
+        CHECK(json["views"][4]["changed"].get<std::uint64_t>() > 100);
+    }
 }
 
 TEST_CASE("compare: a part that moved by a thousandth is found, and its shift is measured", "[cli][compare]") {

@@ -183,6 +183,20 @@ TEST_CASE("look: sheets are written for small sizes, points, lines, one triangle
         }
 }
 
+TEST_CASE("look: a flat model seen along its plane is no fault", "[cli][look]") {
+    const TemporaryFolder folder;
+    write_contents(folder.file("square.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    const Outcome outcome = run({"look", folder.file("square.obj"), "--json", "-", "--size", "200", "--view", "front,right,top,back"});
+    const auto views = nlohmann::json::parse(outcome.out)["views"];
+    REQUIRE(views.size() == 4);
+    for (const std::size_t edge_on : {1, 2}) {
+        CHECK(views[edge_on]["edge_on"] == true);
+        CHECK(views[edge_on]["faults"].empty());
+    }
+    CHECK(views[0]["edge_on"] == false);
+    CHECK(views[0]["share_of_picture"].get<double>() > 0.1);
+}
+
 TEST_CASE("look: a view faces each section", "[cli][look][section]") {
     const std::pair<const char*, std::array<double, 3>> planes[] = {
         {"x=0.2", {1, 0, 0}}, {"y=0.1", {0, 1, 0}}, {"z=-0.3", {0, 0, 1}}, {"1,1,0,0.5", {std::sqrt(0.5), std::sqrt(0.5), 0}}};

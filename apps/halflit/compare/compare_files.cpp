@@ -1,6 +1,7 @@
 #include "apps/halflit/compare/compare_files.hpp"
 
 #include "apps/halflit/report/measures_json.hpp"
+#include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
 #include <string_view>
@@ -9,26 +10,55 @@
 namespace halflit::cli {
 namespace {
 
-/// Draws each view of both, and compares them.
-Result<void> compare_views(ModelPair& pair, Comparison& out) {
-    SeenTriangles seen_a(pair.a.scene()), seen_b(pair.b.scene());
-    Renderer renderer;
-    const ShotPlanes planes{.picture = true, .depth = true, .normal = true};
-    for (std::size_t i = 0; i < pair.cameras.size(); ++i) {
-        const Camera& camera = pair.cameras[i];
-        auto a = draw_shot(pair.a, renderer, pair.view_names[i], camera, planes);
+/// Draws views of both, and compares them.
+class ViewComparer {
+public:
+    ViewComparer(ModelPair& pair, Comparison& out) : pair_(pair), out_(out), seen_a_(pair.a.scene()), seen_b_(pair.b.scene()) {}
+
+    Result<ViewChange> compare(const std::string& name, const Camera& camera) {
+        const ShotPlanes planes{.picture = true, .depth = true, .normal = true};
+        auto a = draw_shot(pair_.a, renderer_, name, camera, planes);
         if (!a) return tl::unexpected(a.error());
-        auto b = draw_shot(pair.b, renderer, pair.view_names[i], camera, planes);
+        auto b = draw_shot(pair_.b, renderer_, name, camera, planes);
         if (!b) return tl::unexpected(b.error());
-        seen_a.add(a->instance, a->triangle), seen_b.add(b->instance, b->triangle);
-        const Vec4f &eye = camera.world_from_camera.c[3], &back = camera.world_from_camera.c[2];
-        const Vec3d middle = pair.bounds.empty ? Vec3d{} : to_double(pair.bounds.center());
-        const double distance = dot(Vec3d{eye.x, eye.y, eye.z} - middle, Vec3d{back.x, back.y, back.z});
-        out.views.push_back(compare_shots(std::move(*a), std::move(*b), out.max_codes, distance));
+        seen_a_.add(a->instance, a->triangle), seen_b_.add(b->instance, b->triangle);
+        const Mat4& m = camera.world_from_camera;
+        const Vec3d middle = pair_.bounds.empty ? Vec3d{} : to_double(pair_.bounds.center());
+        return compare_shots(std::move(*a), std::move(*b), out_.max_codes, dot(axis(m, 3) - middle, axis(m, 2)));
     }
-    out.models.a.unseen_area = seen_a.unseen_area();
-    out.models.b.unseen_area = seen_b.unseen_area();
-    return {};
+    /// Adds a view to the comparison.
+    Result<void> add(const std::string& name, const Camera& camera) {
+        auto view = compare(name, camera);
+        if (!view) return tl::unexpected(view.error());
+        out_.views.push_back(std::move(*view));
+        out_.models.a.unseen_area = seen_a_.unseen_area();
+        out_.models.b.unseen_area = seen_b_.unseen_area();
+        return {};
+    }
+
+private:
+    ModelPair& pair_;
+    Comparison& out_;
+    Renderer renderer_;
+    SeenTriangles seen_a_, seen_b_;
+};
+
+/// The views, and where none of them shows a change that the models have, of other sides the one that shows most of it.
+Result<void> compare_views(ModelPair& pair, const CompareOptions& options, Comparison& out) {
+    ViewComparer comparer(pair, out);
+    for (std::size_t i = 0; i < pair.cameras.size(); ++i)
+        if (const auto added = comparer.add(pair.view_names[i], pair.cameras[i]); !added) return added;
+    if (out.changed_pixels() > 0 || !out.models.differs() || !options.film.views.empty()) return {};
+    ViewComparer trial(pair, out);
+    const std::vector<NamedCamera> sides = other_sides(pair, options);
+    const NamedCamera* best = nullptr;
+    std::uint64_t most = 0;
+    for (const NamedCamera& side : sides) {
+        const auto view = trial.compare(side.name, side.camera);
+        if (!view) return tl::unexpected(view.error());
+        if (view->changed() > most) best = &side, most = view->changed();
+    }
+    return best != nullptr ? comparer.add(best->name, best->camera) : Result<void>();
 }
 
 }  // namespace
@@ -49,7 +79,7 @@ Result<Comparison> compare_files(const CompareOptions& options) {
     auto models = compare_models(*pair);
     if (!models) return tl::unexpected(models.error());
     out.models = std::move(*models);
-    if (const auto compared = compare_views(*pair, out); !compared) return tl::unexpected(compared.error());
+    if (const auto compared = compare_views(*pair, options, out); !compared) return tl::unexpected(compared.error());
     return out;
 }
 

@@ -64,14 +64,30 @@ void warn_of_units(ModelPair& pair) {
                 pair.warnings.push_back(fmt::format("B is {:.4g} times as large as A: the files may have different units", ratio));
 }
 
+CompareOptions with_defaults(CompareOptions flags) {
+    flags.view.orthographic = !flags.fov_given;
+    if (!flags.has_given("shadows")) flags.settings.shadows = ShadowMode::off;  // no change of shape
+    flags.size = flags.size.value_or(kCompareSize);
+    if (flags.film.views.empty()) flags.film.views = usual_views();
+    return flags;
+}
+
+/// Of the flags' views, at one scale.
+std::vector<Camera> cameras_of(const ModelPair& pair, const CompareOptions& flags) {
+    std::vector<ViewSettings> sides = given_sides(pair.a.scene(), flags);
+    for (ViewSettings& side : sides) {
+        side.any_side = false;
+        if (flags.fit_px) side.margin_x = 2.0 * flags.fit_px->width / flags.size->width;
+        if (flags.fit_px) side.margin_y = 2.0 * flags.fit_px->height / flags.size->height;
+    }
+    const float aspect = static_cast<float>(flags.size->width) / static_cast<float>(flags.size->height);
+    return frame_views(outlines_of(pair.a.scene(), pair.b.scene()), pair.bounds, aspect, sides);
+}
+
 }  // namespace
 
 Result<ModelPair> load_pair(const CompareOptions& options) {
-    CompareOptions flags = options;
-    flags.view.orthographic = !options.fov_given;
-    if (!options.has_given("shadows")) flags.settings.shadows = ShadowMode::off;  // no change of shape
-    flags.size = options.size.value_or(kCompareSize);
-    if (flags.film.views.empty()) flags.film.views = usual_views();
+    CompareOptions flags = with_defaults(options);
     flags.scene = options.a;
     auto a = make_render_job(flags, kCompareSize);
     if (!a) return tl::unexpected(a.error());
@@ -86,15 +102,8 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
     pair.bounds = pair.a.prepared->bounds();
     pair.bounds.include(pair.b.prepared->bounds());
 
-    std::vector<ViewSettings> sides = given_sides(pair.a.scene(), flags);
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        sides[i].any_side = false;
-        if (options.fit_px) sides[i].margin_x = 2.0 * options.fit_px->width / flags.size->width;
-        if (options.fit_px) sides[i].margin_y = 2.0 * options.fit_px->height / flags.size->height;
-        pair.view_names.push_back(flags.film.views[i].name);
-    }
-    const float aspect = static_cast<float>(flags.size->width) / static_cast<float>(flags.size->height);
-    pair.cameras = frame_views(outlines_of(pair.a.scene(), pair.b.scene()), pair.bounds, aspect, sides);
+    for (const GivenView& view : flags.film.views) pair.view_names.push_back(view.name);
+    pair.cameras = cameras_of(pair, flags);
 
     // The same box and size of points for both.
     flags.kept_view = kept_view(pair.cameras.front(), pair.bounds, pair.a.settings.point_size, pair.a.source.placement);
@@ -103,6 +112,16 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
     pair.b.settings.exposure = pair.a.settings.exposure;
     pair.b.settings.shading.emission_scale = pair.a.settings.shading.emission_scale;
     return pair;
+}
+
+std::vector<NamedCamera> other_sides(const ModelPair& pair, const CompareOptions& options) {
+    CompareOptions flags = with_defaults(options);
+    std::vector<NamedCamera> out;
+    for (const GivenView& view : *parse_views("back,left,bottom,-45,35,135,35,-135,35,45,-35,-45,-35,135,-35,-135,-35")) {
+        flags.film.views = {view};
+        out.push_back({view.name, cameras_of(pair, flags).front()});
+    }
+    return out;
 }
 
 }  // namespace halflit::cli

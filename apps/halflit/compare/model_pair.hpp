@@ -37,4 +37,11 @@ struct ModelPair {
 /// are the least that show both models whole in each view.
 [[nodiscard]] Result<ModelPair> load_pair(const CompareOptions& options);
 
+struct NamedCamera {
+    std::string name;  ///< as --view takes it
+    Camera camera;
+};
+/// Sides and corners that the usual views do not show, each framed by itself.
+[[nodiscard]] std::vector<NamedCamera> other_sides(const ModelPair& pair, const CompareOptions& options);
+
 }  // namespace halflit::cli

@@ -78,7 +78,13 @@ std::vector<std::string> faults_of(const RenderJob& job, std::span<const ViewSho
     std::vector<std::string> faults;
     for (std::size_t i = 0; i < shots.size(); ++i)
         for (const std::string& fault : contents[i].faults.names()) faults.push_back(fmt::format("view {}: {}", shots[i].name, fault));
-    for (const Json& number : report["never_seen"]) {
+    constexpr std::size_t kMostLines = 5;
+    const Json& unseen = report["never_seen"];
+    if (unseen.size() > kMostLines) {
+        faults.push_back(fmt::format("{} parts of {} are in no view", unseen.size(), job.source.parts->list().size()));
+        return faults;
+    }
+    for (const Json& number : unseen) {
         const Part& part = job.source.parts->list()[number.get<std::size_t>() - 1];
         faults.push_back(fmt::format("part {}{}{} is in no view", number.get<std::size_t>(), part.name.empty() ? "" : ", ", part.name));
     }

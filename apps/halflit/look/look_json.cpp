@@ -123,6 +123,7 @@ Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewS
         view["share_of_picture"] = static_cast<double>(content.pixels) / (static_cast<double>(job.width) * job.height);
         view["box"] = box_json(content.box);
         view["detail"] = shot.detail;
+        view["edge_on"] = content.edge_on;
         view["faults"] = content.faults.names();
         good &= !content.faults.any();
         Json seen = Json::array();

@@ -43,13 +43,7 @@ PixelBox draw_dimensions(const RenderJob& job, const ViewShot& shot, const Pixel
         return std::max({v.x * v.x, v.y * v.y, v.z * v.z}) > kAlmostOne;
     };
     if (!shot.camera.orthographic || bounds.empty || !is_axis(m.c[0]) || !is_axis(m.c[1])) return {};
-    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
-    for (int k = 0; k < 8; ++k) {
-        const Vec3d p =
-            window_point(shot.camera, shot.width(), shot.height(),
-                         {k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z});
-        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
-    }
+    const auto [x0, y0, x1, y1] = window_box(shot, bounds);
     const Vec3d size = to_double(bounds.max) - to_double(bounds.min);
     const auto along = [&](const Vec4f& v) { return absolute(v.x) * size.x + absolute(v.y) * size.y + absolute(v.z) * size.z; };
     const auto text = [&](double length) { return number_text(length * unit.per_drawn_unit) + (unit.name.empty() ? "" : " ") + unit.name; };
@@ -58,7 +52,8 @@ PixelBox draw_dimensions(const RenderJob& job, const ViewShot& shot, const Pixel
     if (x1 - x0 > 1) draw_dimension(canvas, {x0, below + kBeside}, {x1, below + kBeside}, text(along(m.c[0])), kMarks);
     if (y1 - y0 > 1) {
         const std::string height = text(along(m.c[1]));
-        const double x = right + kClear + 0.5 * width_of_text(height, kMarks.text_size);
+        const double half = 0.5 * width_of_text(height, kMarks.text_size);
+        const double x = std::min(right + kClear + half, shot.width() - 2.0 - half);  // over the model where there is no room beside it
         draw_dimension(canvas, {x, y0}, {x, y1}, height, kMarks);
     }
     const double high = kBeside + (x1 - x0 < 60 ? 21 : 7);  // a short line has its text below
@@ -107,7 +102,7 @@ ShownUnit unit_of(const RenderJob& job) {
 }
 
 SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
-    std::string note;
+    std::string note = content.edge_on ? "edge-on" : "";
     for (const std::string& fault : content.faults.names()) note += (note.empty() ? "" : ", ") + fault;
     return {shot.name, note, marked_picture(job, shot, content, unit), {}};
 }

@@ -118,9 +118,19 @@ void judge_vertices(const RenderJob& job, const ViewShot& shot, ViewFaults& faul
     }
 }
 
+/// The model's box is a line in the picture: less than a pixel wide or high, and longer.
+bool is_line(const RenderJob& job, const ViewShot& shot) {
+    const Bounds& bounds = job.film.bounds;
+    if (bounds.empty) return false;
+    const auto [x0, y0, x1, y1] = window_box(shot, bounds);
+    const double across = std::min(x1 - x0, y1 - y0), along = std::max(x1 - x0, y1 - y0);
+    return across < 1.0 && along >= 1.0;
+}
+
 void judge(const RenderJob& job, const ViewShot& shot, ViewContent& content) {
     ViewFaults& faults = content.faults;
-    faults.blank = content.pixels == 0;
+    content.edge_on = content.pixels == 0 && is_line(job, shot);
+    faults.blank = content.pixels == 0 && !content.edge_on;
     if (shot.detail) return;
     constexpr int kLeastSpan = 6;
     const PixelBox& box = content.box;

@@ -30,7 +30,7 @@ struct PartInView {
 
 /// What makes a view one that should not be relied on.
 struct ViewFaults {
-    bool blank = false;    ///< no pixel shows the model
+    bool blank = false;    ///< no pixel shows the model, and it is not seen edge-on
     bool cropped = false;  ///< a vertex lies beside the picture
     bool cut = false;      ///< a vertex lies before the near plane or behind the viewer, or beyond the far plane
     bool inside = false;   ///< the viewer is within the box around the model
@@ -43,6 +43,7 @@ struct ViewFaults {
 struct ViewContent {
     std::int64_t pixels = 0;  ///< that show the model
     PixelBox box;             ///< around them
+    bool edge_on = false;     ///< no pixel shows the model, which is flat and seen along its plane
     ViewFaults faults;
     std::vector<PartInView> parts;  ///< of all parts, by their numbers
 };
