@@ -117,7 +117,8 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
 std::vector<NamedCamera> other_sides(const ModelPair& pair, const CompareOptions& options) {
     CompareOptions flags = with_defaults(options);
     std::vector<NamedCamera> out;
-    for (const GivenView& view : *parse_views("back,left,bottom,-45,35,135,35,-135,35,45,-35,-45,-35,135,-35,-135,-35")) {
+    const auto views = parse_views("back,left,bottom,-45,35,135,35,-135,35,45,-35,-45,-35,135,-35,-135,-35");
+    for (const GivenView& view : *views) {
         flags.film.views = {view};
         out.push_back({view.name, cameras_of(pair, flags).front()});
     }

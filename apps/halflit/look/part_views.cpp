@@ -134,7 +134,7 @@ void judge(const RenderJob& job, const ViewShot& shot, ViewContent& content) {
     if (shot.detail) return;
     constexpr int kLeastSpan = 6;
     const PixelBox& box = content.box;
-    faults.tiny = !faults.blank && kLeastSpan * (box.x1 - box.x0) < shot.width() && kLeastSpan * (box.y1 - box.y0) < shot.height();
+    faults.tiny = content.pixels > 0 && kLeastSpan * (box.x1 - box.x0) < shot.width() && kLeastSpan * (box.y1 - box.y0) < shot.height();
     const Bounds& bounds = job.film.bounds;
     const Vec4f& eye = shot.camera.world_from_camera.c[3];
     faults.inside = !bounds.empty && !shot.camera.orthographic && eye.x > bounds.min.x && eye.x < bounds.max.x && eye.y > bounds.min.y &&
