@@ -151,7 +151,8 @@ TEST_CASE("compare: a change that the usual sides hide is shown from another sid
                              Dent{2, {{0, 0, 0}, {0, 1, 0}, {2, 1, 0}, {2, 0, 0}}, {1, 0.5, 0.3}, "bottom"}}) {
         std::vector<Corners> dented;
         for (const Corners& triangle : whole)
-            if (std::any_of(triangle.begin(), triangle.end(), [&](const Corner& p) { return p[dent.axis] > 0; })) dented.push_back(triangle);
+            if (std::any_of(triangle.begin(), triangle.end(), [&](const Corner& p) { return p[dent.axis] > 0; }))
+                dented.push_back(triangle);
         for (std::size_t i = 0; i < 4; ++i) dented.push_back({dent.ring[i], dent.ring[(i + 1) % 4], dent.deepest});
         const Pair pair(whole, dented);
         INFO(dent.from);
