@@ -56,7 +56,7 @@ private:
     void shade_cells(std::span<std::unique_ptr<FragmentList>> lists);  ///< of one material, at most kCellLanes
     // planes.cpp
     void write_planes(bool empty);  ///< what visibility knows, and 0 in the planes of surfaces; empty: no triangles
-    /// Of pixels of a row from (x_px, y_px) on, which show the triangles `id`; null: nothing.
+    /// The numbers of a row's pixels from (x_px, y_px) on, which show the triangles `id`; null: nothing.
     void write_numbers(const std::uint32_t* id, int x_px, int y_px, int count) const;
     void count_visible();                         ///< what shade_visible() would count
     void write_surface(FragmentList list);        ///< the planes of surfaces; overwrites the scratch's block and list of lights

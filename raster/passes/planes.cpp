@@ -65,10 +65,8 @@ void PictureTile::write_planes(bool empty) {
 void PictureTile::write_numbers(const std::uint32_t* id, int x_px, int y_px, int count) const {
     const Output& output = pass_.output;
     if (!output.instance && !output.triangle) return;
-    std::uint32_t *const instances = output.instance ? output.instance.at(x_px, y_px) : nullptr, *const triangles =
-                                                                                                     output.triangle
-                                                                                                         ? output.triangle.at(x_px, y_px)
-                                                                                                         : nullptr;
+    std::uint32_t* const instances = output.instance ? output.instance.at(x_px, y_px) : nullptr;
+    std::uint32_t* const triangles = output.triangle ? output.triangle.at(x_px, y_px) : nullptr;
     const ViewGeometry& geometry = pass_.view.geometry;
     const Draw* const only = geometry.draws().size() == 1 ? geometry.draws().data() : nullptr;
     for (int i = 0; i < count;) {

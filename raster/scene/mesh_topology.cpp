@@ -25,7 +25,7 @@ public:
         return sets;
     }
 
-    /// Of each triangle, its set's number, by the first triangles of the sets.
+    /// The number of each triangle's set, by the first triangles of the sets.
     [[nodiscard]] std::vector<std::uint32_t> numbers() {
         std::vector<std::uint32_t> number(parent_.size());
         std::uint32_t sets = 0;

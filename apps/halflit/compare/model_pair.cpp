@@ -72,8 +72,8 @@ CompareOptions with_defaults(CompareOptions flags) {
     return flags;
 }
 
-/// Of the flags' views, at one scale.
-std::vector<Camera> cameras_of(const ModelPair& pair, const CompareOptions& flags) {
+/// Cameras of the flags' views, at one scale. outlines: of both models.
+std::vector<Camera> cameras_of(const ModelPair& pair, const Scene& outlines, const CompareOptions& flags) {
     std::vector<ViewSettings> sides = given_sides(pair.a.scene(), flags);
     for (ViewSettings& side : sides) {
         side.any_side = false;
@@ -81,7 +81,7 @@ std::vector<Camera> cameras_of(const ModelPair& pair, const CompareOptions& flag
         if (flags.fit_px) side.margin_y = 2.0 * flags.fit_px->height / flags.size->height;
     }
     const float aspect = static_cast<float>(flags.size->width) / static_cast<float>(flags.size->height);
-    return frame_views(outlines_of(pair.a.scene(), pair.b.scene()), pair.bounds, aspect, sides);
+    return frame_views(outlines, pair.bounds, aspect, sides);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
     pair.bounds.include(pair.b.prepared->bounds());
 
     for (const GivenView& view : flags.film.views) pair.view_names.push_back(view.name);
-    pair.cameras = cameras_of(pair, flags);
+    pair.cameras = cameras_of(pair, outlines_of(pair.a.scene(), pair.b.scene()), flags);
 
     // The same box and size of points for both.
     flags.kept_view = kept_view(pair.cameras.front(), pair.bounds, pair.a.settings.point_size, pair.a.source.placement);
@@ -116,11 +116,12 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
 
 std::vector<NamedCamera> other_sides(const ModelPair& pair, const CompareOptions& options) {
     CompareOptions flags = with_defaults(options);
+    const Scene outlines = outlines_of(pair.a.scene(), pair.b.scene());
     std::vector<NamedCamera> out;
     const auto views = parse_views("back,left,bottom,-45,35,135,35,-135,35,45,-35,-45,-35,135,-35,-135,-35");
     for (const GivenView& view : *views) {
         flags.film.views = {view};
-        out.push_back({view.name, cameras_of(pair, flags).front()});
+        out.push_back({view.name, cameras_of(pair, outlines, flags).front()});
     }
     return out;
 }

@@ -73,7 +73,7 @@ public:
 
     Result<Certificate> run() {
         if (const auto looked = look_around(); !looked) return tl::unexpected(looked.error());
-        if (const auto choosen = choose_views(); !choosen) return tl::unexpected(choosen.error());
+        if (const auto chosen = choose_views(); !chosen) return tl::unexpected(chosen.error());
         if (const auto looked = look_closely(); !looked) return tl::unexpected(looked.error());
         for (std::size_t i = 0; i < found_.triangles.size(); ++i) settle(i);
         found_.added = found_.shots.size() - given_;

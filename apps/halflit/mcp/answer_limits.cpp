@@ -21,6 +21,17 @@ std::string beginning_of(const std::string& text, std::size_t bytes) {
     return text.substr(0, bytes) + kCut;
 }
 
+/// A key in a JSON pointer [RFC 6901].
+std::string pointer_token(const std::string& key) {
+    std::string token;
+    for (const char c : key) {
+        if (c == '~') token += "~0";
+        if (c == '/') token += "~1";
+        if (c != '~' && c != '/') token += c;
+    }
+    return token;
+}
+
 /// A point, a matrix, or a row of one.
 bool stays_whole(const Json& list) {
     return list.size() <= kMostNumbers &&
@@ -43,7 +54,7 @@ private:
         if (value.is_string()) return beginning_of(value.get_ref<const std::string&>(), kMostTextBytes);
         if (value.is_object()) {
             Json object = Json::object();
-            for (const auto& [key, one] : value.items()) object[key] = copy(one, pointer + "/" + key);
+            for (const auto& [key, one] : value.items()) object[key] = copy(one, pointer + "/" + pointer_token(key));
             return object;
         }
         if (!value.is_array() || stays_whole(value)) return value;
@@ -65,7 +76,18 @@ Json bounded_report(Json report, std::size_t most_bytes) {
     const Json whole = std::move(kept);
     for (const std::size_t most : {10000, 5000, 2000, 1000, 500, 200, 100, 50, 20, 10, 5, 2, 1}) {
         kept = ReportCutter(most).cut(whole);
-        if (to_text(kept, true).size() <= most_bytes) break;
+        if (to_text(kept, true).size() <= most_bytes) return kept;
+    }
+    // Lists of one item are too much: the largest members go.
+    while (to_text(kept, true).size() > most_bytes) {
+        std::string largest;
+        std::size_t bytes = 0;
+        for (const auto& [key, one] : kept.items())
+            if (const std::size_t size = to_text(one, true).size(); key != "left_out" && size > bytes) largest = key, bytes = size;
+        if (bytes == 0) break;
+        const Json& member = kept[largest];
+        kept["left_out"].push_back({{"list", "/" + pointer_token(largest)}, {"items", member.is_structured() ? member.size() : 1}});
+        kept.erase(largest);
     }
     return kept;
 }

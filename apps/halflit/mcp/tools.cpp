@@ -68,7 +68,7 @@ struct LookCall : LookOptions {
     std::string view_of_pixel;
 };
 
-/// ": bodies 2, 5", those of the list that have such edges; nothing where there is one body.
+/// " (bodies 2, 5 of body_list)", those that have such edges; nothing where there is one body.
 std::string bodies_with(const Json& measures, const char* edges) {
     constexpr std::size_t kMostNamed = 10;
     std::vector<std::string> numbers;

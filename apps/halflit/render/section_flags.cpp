@@ -27,7 +27,7 @@ CutPlane drawn_plane(const GivenSection& given, const Placement& place, const Bo
     return {normal, dot(normal, along) * place_along};
 }
 
-/// Of each part, whether any of it is drawn.
+/// Whether any of each part is drawn.
 std::vector<bool> shown_parts(const RenderJob& job) {
     const Parts& parts = *job.source.parts;
     std::vector<bool> shown(parts.list().size(), false);
