@@ -132,6 +132,7 @@ private:
         double t = -1.0;  ///< share of the ray's length
         int beyond = 0;   ///< the corner k at which the edge begins beyond which it is; -1: within the triangle
         int side = 0;     ///< of the triangle that it meets; 0: the edge
+        int rim = -1;     ///< the corner k at which the edge begins that it passes outside of, nearer than rounding
     };
     [[nodiscard]] Meeting meet(std::uint32_t face, Vec3d eye, Vec3d ray) const {
         constexpr double kRim = -1e-9;
@@ -143,8 +144,9 @@ private:
         const double u = dot(from, h) / scale, v = dot(ray, q) / scale, w = (1.0 - u) - v;  // of corners 1, 2 and 0
         const int side = scale > 0.0 ? 1 : -1;
         const double t = dot(e2, q) / scale;
-        if (w >= kRim && u >= kRim && v >= kRim) return {t, -1, side};
-        return {t, w <= u && w <= v ? 1 : u <= v ? 2 : 0, side};
+        const int nearest = w <= u && w <= v ? 1 : u <= v ? 2 : 0;
+        if (w >= kRim && u >= kRim && v >= kRim) return {t, -1, side, w >= 0.0 && u >= 0.0 && v >= 0.0 ? -1 : nearest};
+        return {t, nearest, side};
     }
 
     /// The surface around a triangle lies before the point, as far as it is seen from one side.
@@ -155,6 +157,16 @@ private:
             const Meeting met = meet(face, eye, ray);
             if (met.side == 0 || (step > 0 && met.side != side)) return false;
             side = met.side;
+            if (met.rim >= 0) {
+                // Where the surface goes on, the triangle beyond that edge has the point, or rounding has lost it. An outline has none.
+                const std::uint32_t next = edges_.neighbour(face, met.rim);
+                const Meeting beyond = next == ModelEdges::kNone ? Meeting{} : meet(next, eye, ray);
+                if (beyond.side != side) return false;
+                if (beyond.beyond < 0 && beyond.rim < 0) {
+                    face = next;
+                    continue;
+                }
+            }
             if (met.beyond < 0)
                 return face != edge.face[0] && face != edge.face[1] && met.t > 0.0 && met.t < before && is_drawn(eye + ray * met.t);
             face = edges_.neighbour(face, met.beyond);

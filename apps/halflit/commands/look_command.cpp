@@ -25,8 +25,8 @@ struct LookFiles : LookOptions {
 
 std::vector<std::string> inputs_of(const LookResult& result, const LookOptions& options) {
     std::vector<std::string> inputs = result.inputs;
-    for (const std::string& file : {options.environment, options.camera_file})
-        if (!file.empty()) inputs.push_back(file);
+    for (const std::string& file : {options.scene, options.environment, options.camera_file})
+        if (!file.empty() && file != "-") inputs.push_back(file);
     return inputs;
 }
 

@@ -5,6 +5,7 @@
 #include "apps/halflit/look/part_views.hpp"
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
+#include "apps/halflit/render/camera_file.hpp"
 #include "apps/halflit/report/measures_json.hpp"
 #include "sh/time_limit.hpp"
 
@@ -160,6 +161,7 @@ std::vector<FlagGroup> look_flags(LookOptions& o) {
 Result<RenderJob> look_job(LookOptions& options) {
     if (options.film.turntable > 0 || options.film.frames) return fail(ErrorCode::usage, "look: expected views, found moving pictures");
     if (options.settings.region.width > 0) return fail(ErrorCode::usage, "--region: expected whole pictures in a sheet");
+    if (const auto settled = settle_cameras(options); !settled) return tl::unexpected(settled.error());
     set_defaults(options);
     if (options.projection) {
         std::vector<std::string> names;

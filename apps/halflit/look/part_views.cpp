@@ -1,6 +1,7 @@
 #include "apps/halflit/look/part_views.hpp"
 
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/placed_point.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
@@ -118,18 +119,34 @@ void judge_vertices(const RenderJob& job, const ViewShot& shot, ViewFaults& faul
     }
 }
 
-/// The model's box is a line in the picture: less than a pixel wide or high, and longer.
-bool is_line(const RenderJob& job, const ViewShot& shot) {
-    const Bounds& bounds = job.film.bounds;
-    if (bounds.empty) return false;
-    const auto [x0, y0, x1, y1] = window_box(shot, bounds);
-    const double across = std::min(x1 - x0, y1 - y0), along = std::max(x1 - x0, y1 - y0);
-    return across < 1.0 && along >= 1.0;
+/// Every triangle is seen along its plane, within the rounding of its corners.
+bool is_edge_on(const RenderJob& job, const ViewShot& shot) {
+    constexpr double kEdgeOn = 1e-5;  // sine of the angle between the triangle and the ray from the viewer
+    const Vec3d eye = axis(shot.camera.world_from_camera, 3), back = axis(shot.camera.world_from_camera, 2);
+    const Scene& scene = job.scene();
+    bool some = false;
+    TimeCheck check;
+    for (const Instance& instance : scene.instances) {
+        if (!raster::counts_for_views(scene, instance)) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (mesh.topology != Topology::triangles) continue;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            check();
+            const auto corner = [&](std::size_t k) {
+                return raster::placed_in_double(instance.world_from_object, mesh.positions[mesh.indices[i + k]]);
+            };
+            const Vec3d a = corner(0), n = cross(corner(1) - a, corner(2) - a), ray = shot.camera.orthographic ? back : eye - a;
+            const double along = dot(n, ray);
+            if (!(along * along <= kEdgeOn * kEdgeOn * (dot(n, n) * dot(ray, ray)))) return false;
+            some = some || dot(n, n) > 0.0;
+        }
+    }
+    return some;
 }
 
 void judge(const RenderJob& job, const ViewShot& shot, ViewContent& content) {
     ViewFaults& faults = content.faults;
-    content.edge_on = content.pixels == 0 && is_line(job, shot);
+    content.edge_on = content.pixels == 0 && is_edge_on(job, shot);
     faults.blank = content.pixels == 0 && !content.edge_on;
     if (shot.detail) return;
     constexpr int kLeastSpan = 6;
