@@ -1,4 +1,5 @@
 """Camera, light and exposure that are chosen: when they are chosen anew, and what keywords say of them."""
+import copy
 import unittest
 import unittest.mock
 
@@ -43,6 +44,18 @@ class Kept(unittest.TestCase):
                 wrong()
             self.assertEqual(scene.render(64).pixel_hash, first.pixel_hash)
         self.assertEqual(scene.counts["lights"], 0)  # those of the studio are not the caller's
+
+    def test_a_setup_of_another_scene_is_refused(self):
+        scene, other = cube(), cube()
+        other.add_light("point", position=(0, 3, 3), color=(9, 1, 1))
+        for made in (other.setup(64), other.setup(64, bounds=[[-2] * 3, [2] * 3])):
+            for call in (scene.render, scene.measure):
+                with self.assertRaisesRegex(halflit.UsageError, "^setup: expected one of this scene, found one of another"):
+                    call(setup=made)
+            other.render(setup=made)
+            for copied in (copy.copy, copy.deepcopy):
+                with self.assertRaisesRegex(TypeError, "cannot be copied"):
+                    copied(made)
 
     def test_an_old_setup_is_not_taken_for_the_scene_as_it_is(self):
         scene, fresh = cube(), cube()

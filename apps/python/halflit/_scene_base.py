@@ -18,6 +18,7 @@ class SceneBase:
     def _start(self, handle: _c.Handle) -> None:
         self._handle: Any = handle
         self._lock = SceneLock()
+        self._mark = object()  # of this scene alone; its setups have it
         self._renderer: Any = None
         self._executed: Any = None  # Execution.key of the renderer
         self._world = World()

@@ -19,11 +19,12 @@ from ._world import World
 class Setup:
     """What Scene.setup() chose: size, camera, light and settings. render(setup=...) draws by it again, whatever has moved since."""
 
-    def __init__(self, camera: Camera, settings: Any, lighting: Any, size: Tuple[int, int]) -> None:
+    def __init__(self, camera: Camera, settings: Any, lighting: Any, size: Tuple[int, int], mark: object) -> None:
         self.size = size  #: width, height
         self._camera = camera  # in the file's world
         self._settings = settings
         self._lighting = lighting
+        self._mark = mark  # of its scene, which it does not keep alive
 
     @property
     def camera(self) -> Camera:
@@ -40,7 +41,7 @@ class Setup:
 
     def _seen_by(self, camera: Camera) -> Setup:
         """The same light and size with another camera."""
-        return Setup(camera, self._settings, self._lighting, self.size)
+        return Setup(camera, self._settings, self._lighting, self.size, self._mark)
 
 
 class Request:
@@ -155,7 +156,7 @@ def set_up(scene: Any, request: Request) -> Setup:
     lighting = _c.Handle(
         "choose_picture", "lighting_destroy", scene._handle, *map(ctypes.byref, (request.struct, size, camera._c, settings))
     )
-    return Setup(scene._world.out(camera), settings, lighting, (size[0], size[1]))
+    return Setup(scene._world.out(camera), settings, lighting, (size[0], size[1]), scene._mark)
 
 
 def choose(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:
@@ -224,6 +225,8 @@ def kept(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:
     setup = options["setup"]
     if not isinstance(setup, Setup):
         raise UsageError(f"setup: expected what Scene.setup() returned, found {shown(setup)}")
+    if setup._mark is not scene._mark:
+        raise UsageError("setup: expected one of this scene, found one of another scene, whose light it has")
     others = [name for name in VIEW if name not in ("setup", "exposure", "ev") and options.get(name) is not None]
     if others:
         raise UsageError(f"setup: cannot be combined with {', '.join(others)}, which it has chosen")
