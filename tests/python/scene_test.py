@@ -1,8 +1,10 @@
 """Scenes from numpy arrays: what is handed over, what is drawn, what is refused."""
+import copy
 import errno
 import json
 import os
 import pathlib
+import pickle
 import tempfile
 import unittest
 
@@ -465,6 +467,22 @@ class Parts(unittest.TestCase):
         with self.assertRaisesRegex(halflit.UsageError, "closed"):
             scene.render(8)
         self.assertEqual(repr(scene), "<halflit.Scene, closed>")
+
+    def test_a_mesh_tells_the_instance_that_places_it(self):
+        scene = halflit.Scene()
+        kept = scene.add_mesh(CORNERS, FACES, name="kept", place=False)
+        arm = scene.add_mesh(CORNERS, FACES, name="arm")
+        self.assertEqual((kept, kept.instance, arm, arm.instance), (0, None, 1, 0))
+        self.assertIsInstance(arm, int)
+        for other in (copy.copy(arm), pickle.loads(pickle.dumps(arm))):
+            self.assertEqual((type(other), other, other.instance), (halflit.MeshIndex, 1, 0))
+        scene.set_instance(arm.instance, moved(1, 2, 3))
+        self.assertEqual(scene.instance(arm.instance)[0], arm)
+        ids = scene.render(32, aovs=["id"]).aovs["id"]
+        self.assertEqual(set(np.unique(ids)), {0, arm.instance + 1})
+        self.assertEqual(scene.look(arm.instance)["name"], "arm")
+        second = scene.add_instance(kept, moved(4), name="hand")
+        self.assertEqual([scene.name("instance", i) for i in (arm.instance, second)], ["arm", "hand"])
 
     def test_numbers_that_c_cannot_hold_are_refused(self):
         scene = halflit.Scene()

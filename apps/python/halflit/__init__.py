@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from . import _c
 from ._camera import Camera
 from ._errors import BadInputError, CancelledError, Error, FileError, LimitError, UsageError
+from ._geometry import MeshIndex
 from ._light import Light
 from ._material import Lobe, Material, TextureUse
 from ._options import AOVS
@@ -38,6 +39,7 @@ __all__ = [
     "LimitError",
     "Lobe",
     "Material",
+    "MeshIndex",
     "Picture",
     "PictureOptions",
     "Scene",

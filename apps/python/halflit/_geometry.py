@@ -21,6 +21,17 @@ _COLORS = {"srgb": "SRGB", "linear": "LINEAR", "srgb_by_alpha": "SRGB_BY_ALPHA",
 MaterialOf = Union[int, Material, MaterialMembers, None]
 
 
+class MeshIndex(int):
+    """The index of a mesh, an int, as Scene.add_mesh() returns it. instance: index of the instance that places it; None: it is not placed."""
+
+    instance: Optional[int]
+
+    def __new__(cls, index: int, instance: Optional[int] = None) -> MeshIndex:
+        made = super().__new__(cls, index)
+        made.instance = instance
+        return made
+
+
 class Geometry(SceneBase):
     """The methods of a Scene about what reflects light."""
 
@@ -92,8 +103,11 @@ class Geometry(SceneBase):
         name: Optional[str] = None,
         matrix: Any = None,
         place: bool = True,
-    ) -> int:
+    ) -> MeshIndex:
         """Adds a mesh and returns its index. It is drawn where `matrix` (4 x 4; the identity) places it, unless place is False.
+
+        The index is an int whose member `instance` is the index of the instance that places the mesh, or None. set_instance(), look()
+        and aovs["id"] - 1 mean that one: arm = scene.add_mesh(v, f), then scene.set_instance(arm.instance, matrix).
 
         vertices: (n, 3) world units. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
         normals: (n, 3), "smooth" (made from the faces around each vertex, anew when they move), or None: each triangle is flat.
@@ -114,9 +128,7 @@ class Geometry(SceneBase):
             used = self._plain_material() if material is None else self._material_index(material)
             self._change("scene_add_mesh", ctypes.byref(arrays.struct(used)), ctypes.byref(index))
             self._remember(index.value, arrays, used, own)
-            if place:
-                self._add_instance(index.value, at)
-            return index.value
+            return MeshIndex(index.value, self._add_instance(index.value, at) if place else None)
 
     def set_mesh(self, index: int, vertices: Any, faces: Any = None, *, normals: Any = None, uv: Any = None, uv1: Any = None,
                  colors: Any = None, colors_space: Optional[str] = None, tangents: Any = None,
@@ -200,9 +212,10 @@ class Geometry(SceneBase):
         color: linear RGB or RGBA, or "#rrggbb", times the material's base colour. material: index, in place of the mesh's.
         visible: False: it is not drawn, casts no shadow, and views do not look at it. name: see name().
         """
+        visible = truth(visible, "visible")
         with self._lock:
             index = self._add_instance(mesh, self._placement(matrix))
-            if color is not None or material is not None or not visible or name is not None:
+            if color is not None or material is not None or name is not None or not visible:
                 try:
                     self.set_instance(index, color=color, material=material, visible=visible, name=name)
                 except Exception:
@@ -282,10 +295,12 @@ class Geometry(SceneBase):
     # ---- names and nodes ------------------------------------------------------------------------------------------------
 
     def name(self, part: str, index: int) -> str:
-        """Name of a "node", "instance", "mesh", "material" or "camera"; an instance without one has its node's."""
+        """Name of a "node", "instance", "mesh", "material" or "camera"; an instance without one has its node's, or else its mesh's."""
         text = ctypes.c_char_p()
         with self._lock:  # the text is the scene's
             self._call("scene_get_name", chosen(part, "PART", "part"), index, ctypes.byref(text))
+            if part == "instance" and not text.value:
+                return self.name("mesh", self._instance(index).mesh)
             return _c.text_of(text.value)
 
     def set_name(self, part: str, index: int, name: str) -> None:
