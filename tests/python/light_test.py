@@ -1,5 +1,6 @@
 """Light, lobes, environments and budgets."""
 import os
+import pickle
 import tempfile
 import unittest
 
@@ -93,6 +94,71 @@ class Lights(unittest.TestCase):
         dark = scene.render(64, studio="never")
         shared = scene.render(64)
         self.assertGreater(shared[:, :, :3].mean(), dark[:, :, :3].mean() + 1)
+
+
+class Idle(unittest.TestCase):
+    def refused(self, name, call):
+        with self.assertRaisesRegex(halflit.UsageError, f"^{name}: "):
+            call()
+
+    def test_keywords_without_effect_are_refused(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        for name, options in (
+            ("fov", {"orthographic": True, "fov": 30}),
+            ("fov", {"orthographic": True, "fov": 30, "view": "iso"}),
+            ("edge_color", {"edge_color": "black"}),
+            ("hidden_edges", {"hidden_edges": "dashed"}),
+            ("edge_width", {"edges": "none", "edge_width": 2}),
+            ("shadow_size", {"shadows": "off", "shadow_size": 512}),
+            ("shadow_fade", {"shadows": "off", "shadow_fade": 2.0}),
+        ):
+            self.refused(name, lambda options=options: scene.render(16, **options))
+        self.refused("fov", lambda: scene.render_views(["iso"], 16, orthographic=True, fov=30))
+        self.refused("fov", lambda: halflit.Camera.view(scene, orthographic=True, fov=30))
+        scene.render(16, edges="all", edge_color="red", hidden_edges="dashed", orthographic=False, fov=30)
+        found = scene.measure(64, "draft", shadows="off")
+        scene.render(64, shadows="off", **found["settings"])
+
+    def test_members_that_a_light_does_not_have_are_refused(self):
+        scene = halflit.Scene()
+        for name, type, members in (
+            ("position", "directional", {"position": (1, 2, 3)}),
+            ("range", "directional", {"range": 3}),
+            ("direction", "point", {"direction": (1, 0, 0)}),
+            ("outer_cone_rad", "point", {"outer_cone_rad": 0.3}),
+            ("inner_cone_rad", "spot", {"inner_cone_rad": 2}),
+        ):
+            self.refused(name, lambda type=type, members=members: scene.add_light(type, **members))
+            self.refused(name, lambda type=type, members=members: scene.add_light({"type": type, **members}))
+        self.assertEqual(scene.counts["lights"], 0)
+        index = scene.add_light("spot", position=(0, 3, 0), outer_cone_rad=0.5, inner_cone_rad=0.5)
+        light = scene.light(index)
+        light.inner_cone_rad = 0.6
+        self.refused("inner_cone_rad", lambda: scene.set_light(index, light))
+        light.type = "directional"  # what it keeps has no effect
+        self.assertEqual(pickle.loads(pickle.dumps(light)), light)
+
+    def test_lights_of_a_file_are_added_again(self):
+        lights = [{"type": "point", "range": 7}, {"type": "spot", "spot": {"outerConeAngle": 0.4}}, {"type": "directional", "range": 7}]
+        more = {"extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": lights}}}
+        at = {"rotation": [0.6, 0, 0, 0.8], "translation": [1, 2, 3]}
+        more["nodes"] = [{"mesh": 0}, *({"extensions": {"KHR_lights_punctual": {"light": i}}, **at} for i in range(3))]
+        scene = halflit.Scene.load(box(more=more))
+        self.assertEqual(scene.counts["lights"], 3)
+        for i in range(3):
+            scene.add_light(halflit.Light(**scene.light(i).to_dict()))
+
+    def test_truths_and_angles_are_checked(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        for wrong in ("no", None, 2):
+            self.refused("visible", lambda wrong=wrong: scene.add_instance(0, visible=wrong))
+        self.assertEqual(scene.counts["instances"], 1)
+        self.assertFalse(scene.look(scene.add_instance(0, visible=False))["visible"])
+        for wrong in (float("nan"), -1, 181):
+            self.refused("crease_deg", lambda wrong=wrong: halflit.Scene.load(box(), crease_deg=wrong))
+        self.refused("time_limit_s", lambda: halflit.Scene.load(box(), time_limit_s=float("nan")))
 
 
 class Budgets(unittest.TestCase):

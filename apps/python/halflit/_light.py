@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Optional, cast
+from typing import Any, Callable, Iterable, Optional, cast
 
 from ._errors import UsageError
 from ._lazy import np  # noqa: F401  (in annotations)
@@ -10,6 +10,14 @@ from ._members import LightKeywords
 from ._record import Record
 from ._types import Color, Point, Unpack
 from ._values import reals, shown
+
+
+#: Members that not all lights have -> the types that do.
+_TYPES = {
+    **dict.fromkeys(("position", "range", "source_radius"), ("point", "spot")),
+    "direction": ("directional", "spot"),
+    **dict.fromkeys(("inner_cone_rad", "outer_cone_rad", "cone_power"), ("spot",)),
+}
 
 
 class Light(Record):
@@ -49,6 +57,24 @@ class Light(Record):
 
     def __init__(self, type: str = "directional", **members: Unpack[LightKeywords]) -> None:
         super().__init__(type=type, **members)
+        self._refuse_idle(members)
+
+    def _refuse_idle(self, given: Iterable[str]) -> None:
+        """Refuses members that lights of this type do not have, unless they are as in any light."""
+        plain: Any = None
+        names = set(given) - {"type"}
+        for name in () if len(names) + 1 == len(self._members()) else sorted(names):  # all: of to_dict(), as a file has them
+            if name in _TYPES and self.type not in _TYPES[name]:
+                plain = plain or Light()
+                if getattr(self, name) != getattr(plain, name):
+                    raise UsageError(f"{name}: has no effect on a light of type {self.type}")
+
+    def _check(self) -> None:
+        """Refuses angles that contradict each other; each alone may be set first."""
+        if self.type == "spot" and self.inner_cone_rad > self.outer_cone_rad:
+            raise UsageError(
+                f"inner_cone_rad: expected at most outer_cone_rad, which is {self.outer_cone_rad:g}, found {self.inner_cone_rad:g}"
+            )
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name == "direction" and not any(reals(value, 3, name)):

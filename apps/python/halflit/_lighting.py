@@ -24,6 +24,8 @@ class Lighting(SceneBase):
         """Adds a Light, or one of this type, with these members: add_light("point", position=(0, 2, 0), color=(4, 4, 4))."""
         index = ctypes.c_int32()
         made = Light(light, **members) if isinstance(light, str) else Light._from(light, **members)
+        made._refuse_idle(members)
+        made._check()
         self._change("scene_add_light", ctypes.byref(self._world.into(made)._c), ctypes.byref(index))
         self._own_lights = True
         return index.value
@@ -36,7 +38,9 @@ class Lighting(SceneBase):
 
     def set_light(self, index: int, light: Union[Light, LightMembers]) -> None:
         """Replaces a light."""
-        self._change("scene_set_light", index, ctypes.byref(self._world.into(Light._from(light))._c))
+        made = Light._from(light)
+        made._check()
+        self._change("scene_set_light", index, ctypes.byref(self._world.into(made)._c))
 
     def remove_light(self, index: int) -> None:
         """Removes a light; add_light() may use its index again."""

@@ -6,6 +6,7 @@ from typing import Any, Dict, Iterable, Tuple
 
 from . import _c
 from ._color import BRIGHTEST, color
+from ._errors import UsageError
 from ._material import Lobe
 from ._record import chosen
 from ._values import truth
@@ -70,6 +71,11 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "edge_angle_deg": ("edge_angle_deg", "float"),
     "edge_width": ("edge_width", "float"),
 }
+#: Keywords that have an effect only if another one is not "none" or "off". 0 of a shadow's is its default, as measure() returns it.
+_PARTS = {
+    "edges": ("edge_color", "hidden_edges", "edge_angle_deg", "edge_width"),
+    "shadows": ("shadow_size", "soft_shadow_maps", "shadow_fade", "sky_shadows", "shadow_terminator_offset", "shadow_memory_limit"),
+}
 KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "edge_color", "lobe"))
 
 
@@ -100,6 +106,12 @@ def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
             if kind.isupper() and isinstance(value, str):
                 value = chosen(value, kind, name)
             settings.put(member, truth(value, name) if kind == "bool" else value, name)
+    for whole, parts in _PARTS.items():
+        if getattr(settings, whole) == 0:  # none, off
+            for name in parts:
+                value = options.get(name)
+                if value is not None and not (whole == "shadows" and value == 0):
+                    raise UsageError(f"{name}: has no effect {'without edges' if whole == 'edges' else 'with shadows off'}")
 
 
 def set_background(settings: Any, value: Any) -> None:

@@ -150,7 +150,9 @@ class Record:
 
 
 def _remade(kind: Any, members: Dict[Any, Any]) -> Record:
-    made: Record = kind(**members)
+    made: Record = kind()
+    for name, value in members.items():  # all of them, which the constructor may refuse
+        setattr(made, name, value)
     return made
 
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import sys
 from typing import Any, BinaryIO, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _c
@@ -20,6 +21,7 @@ from ._world import World
 
 #: Members of halflit_load_options that are truths, and those that have a keyword of their own.
 _TRUTHS = ("strict",)
+_MOST = {"crease_deg": 180.0, "time_limit_s": sys.float_info.max}  # of numbers from 0
 _NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre", "up")
 
 
@@ -86,6 +88,8 @@ class Scene(Geometry, Lighting):
             if name not in how._kinds or name in _NAMED:
                 raise TypeError(f"Scene.load() has no keyword {name!r}")
             setattr(how, name, truth(value, name) if name in _TRUTHS else value)
+            if name in _MOST and not 0 <= getattr(how, name) <= _MOST[name]:  # NaN neither
+                raise UsageError(f"{name}: expected a number from 0 {'on' if _MOST[name] > 1e9 else f'to {_MOST[name]:g}'}, found {value!r}")
         how.put("time_s", time, "time")
         how.keep_animations, how.recentre = truth(keep_animations, "keep_animations"), truth(recentre, "recentre")
         how.up = 0 if up is None else up_axis(up)

@@ -12,8 +12,8 @@ from ._errors import UsageError
 from ._lazy import np
 from ._options import VIEW, WHOLE_SCENE, check_names
 from ._record import chosen
-from ._values import real, shown, sized, truth
-from ._views import drawn_views, margins
+from ._values import real, shown, sized
+from ._views import drawn_views, has_parallel_rays, margins
 from ._world import World
 
 class Setup:
@@ -118,7 +118,7 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
         camera = drawn_views(scene, [options["view"]], size, options)[0]
     elif options.get("fit") is not None:
         struct.margin_x, struct.margin_y = margins(options["fit"], size)
-    struct.orthographic = truth(options.get("orthographic") or False, "orthographic")
+    struct.orthographic = has_parallel_rays(options)
     struct.exposure = exposure_of(options) or 0.0
     light_of(scene, options, struct)
     return Request(struct, camera, scene_camera)

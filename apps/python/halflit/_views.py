@@ -21,6 +21,14 @@ def margins(fit: Any, size: Optional[Tuple[int, int]]) -> Tuple[float, float]:
     return min(2 * fit / width, 0.9), min(2 * fit / height, 0.9)
 
 
+def has_parallel_rays(options: Dict[Any, Any]) -> bool:
+    """The keyword orthographic, with which fov has no effect."""
+    found = truth(options.get("orthographic") or False, "orthographic")
+    if found and options.get("fov") is not None:
+        raise UsageError("fov: has no effect with orthographic")
+    return found
+
+
 def view_struct(scene: Any, view: Any, size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> Any:
     """A halflit_view: its angles by a name or by (azimuth, elevation), the rest by the keywords zoom, fov, orthographic and fit."""
     struct = _c.make("view")
@@ -34,7 +42,7 @@ def view_struct(scene: Any, view: Any, size: Optional[Tuple[int, int]], options:
     for name, member in (("zoom", "zoom"), ("fov", "fov_y_deg")):
         if options.get(name) is not None:
             struct.put(member, options[name], name)
-    struct.orthographic = truth(options.get("orthographic") or False, "orthographic")
+    struct.orthographic = has_parallel_rays(options)
     fit = options.get("fit")
     struct.any_side = fit is None
     if fit is not None:
