@@ -127,6 +127,15 @@ class Import(unittest.TestCase):
         loaded = {name.partition(".")[0] for name in runs[-1][1:]}
         self.assertLessEqual({name for name in loaded if not name.startswith("_")}, set(allowed.split()))
 
+    def test_dir_and_help_show_all_names(self):
+        self.assertLessEqual(set(halflit.__all__), set(dir(halflit)))
+        code = "import halflit, pydoc; print(sorted(set(halflit.__all__) - set(dir(halflit)))); print(pydoc.plain(pydoc.render_doc(halflit)))"
+        environment = {**os.environ, "PYTHONPATH": os.path.join(APPS, "python")}
+        said = subprocess.check_output([sys.executable, "-c", code], env=environment).decode()
+        self.assertTrue(said.startswith("[]\n"))
+        for text in ("class Picture(", "contact_sheet(", "class Scene(", "class MeshIndex("):
+            self.assertIn(text, said)
+
     def test_a_library_that_is_not_there_is_named(self):
         code = "import halflit\ntry: halflit.version()\nexcept ImportError as error: print(error)"
         environment = {**os.environ, "PYTHONPATH": os.path.join(APPS, "python"), "HALFLIT_LIBRARY": "/nowhere/lib.so"}

@@ -9,7 +9,7 @@ instances, textures, lights, many pictures. Lengths are world units, angles in d
 """
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, List
 
 from . import _c
 from ._camera import Camera
@@ -63,6 +63,11 @@ def version() -> str:
 def pixel_epoch() -> int:
     """Libraries of equal pixel epoch give equal pixels."""
     return int(_c.function("pixel_epoch")())
+
+
+def __dir__() -> List[str]:
+    # dir() and help() show the names that are imported late, too.
+    return sorted({*globals(), *__all__})
 
 
 def __getattr__(name: str) -> Any:
