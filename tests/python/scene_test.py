@@ -7,6 +7,7 @@ import pathlib
 import pickle
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -483,6 +484,31 @@ class Parts(unittest.TestCase):
         self.assertEqual(scene.look(arm.instance)["name"], "arm")
         second = scene.add_instance(kept, moved(4), name="hand")
         self.assertEqual([scene.name("instance", i) for i in (arm.instance, second)], ["arm", "hand"])
+
+    def test_vertices_that_are_not_finite_are_left_out_with_a_warning(self):
+        apart = np.concatenate([CORNERS, CORNERS + (5, 0, 0)])
+        scene, plain = halflit.Scene(), halflit.Scene()
+        plain.add_mesh(CORNERS, FACES)
+        apart[8:] = np.nan
+        with self.assertWarnsRegex(UserWarning, "vertices: mesh 'arm' has 8 that are not finite, the first in row 8: ") as told:
+            scene.add_mesh(apart, np.concatenate([FACES, FACES + 8]), name="arm")
+        self.assertEqual(len(told.warnings), 1)
+        with self.assertWarnsRegex(UserWarning, "12 triangles dropped"):
+            self.assertEqual(render(scene).pixel_hash, render(plain).pixel_hash)
+        with self.assertWarnsRegex(UserWarning, "vertices: mesh 0 has 8 that are not finite"):
+            scene.set_vertices(0, apart)
+        with self.assertRaisesRegex(halflit.UsageError, "normals: row 8 is not finite"):
+            scene.add_mesh(CORNERS.repeat(2, axis=0), FACES, normals=apart)
+
+    def test_exact_vertices_that_are_too_far_away_are_warned_of(self):
+        for offset, kind in ((1e6, np.float64), (4e6, np.float32)):
+            far = CORNERS.astype(kind) + kind(offset)
+            self.assertTrue(np.array_equal(far - kind(offset), CORNERS))
+            with self.assertWarnsRegex(UserWarning, "vertices: float32, in which cameras are placed, has steps of .*views of the scene show it small"):
+                halflit.Scene().add_mesh(far, FACES)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            halflit.Scene().add_mesh(CORNERS.astype(float) + 4e5, FACES)
 
     def test_numbers_that_c_cannot_hold_are_refused(self):
         scene = halflit.Scene()

@@ -12,6 +12,8 @@ from ._values import shown
 
 #: Kinds of DLPack's devices: kDLCPU, kDLCUDAHost.
 _MAIN_MEMORY = (1, 3)
+#: A box whose size is below this share of its middle's distance from the origin is framed as if it were so large.
+_SMALLEST = 1e-6
 
 
 def array_of(value: Any, name: str) -> Array:
@@ -65,17 +67,31 @@ def finite(value: Any, columns: int, name: str, count: int) -> Array:
     return array
 
 
-def positions(value: Any, count: Optional[int] = None) -> Array:
-    """Vertices as floats(). Warns where rounding to float32 changes a shape that is far from the origin."""
-    array = floats(value, 3, "vertices", count)
-    if getattr(value, "dtype", np.float64) != np.float32 and len(array) and np.isfinite(array).all():
-        low, high = array.min(axis=0), array.max(axis=0)
-        step = np.spacing(np.maximum(np.abs(low), np.abs(high)).max())
-        if step > 1e-4 * (high - low).max() and not np.array_equal(array, value):
-            warn(
-                f"vertices: float32 rounds them to steps of {step:g}, in a mesh of size {(high - low).max():g}: move them to the origin"
-                " before, as by vertices - vertices.mean(axis=0)"
-            )
+def positions(value: Any, mesh: str) -> Array:
+    """Vertices as floats(). Warns of those that are not finite, and where float32 is too coarse for a shape that is far from the origin.
+
+    mesh: what has them, for the warnings.
+    """
+    array = floats(value, 3, "vertices")
+    is_finite = np.isfinite(array).all(axis=1)
+    wrong = np.flatnonzero(~is_finite)
+    if len(wrong):
+        warn(f"vertices: {mesh} has {len(wrong)} that are not finite, the first in row {wrong[0]}: what has one of them is not drawn")
+    if len(wrong) == len(array):
+        return array
+    seen = array[is_finite] if len(wrong) else array
+    low, high = seen.min(axis=0).astype(np.float64), seen.max(axis=0).astype(np.float64)
+    size, far = (high - low).max(), np.maximum(np.abs(low), np.abs(high)).max()
+    step = np.spacing(np.float32(far))
+    cure = "move them to the origin before, as by vertices - vertices.mean(axis=0)"
+    is_coarse = getattr(value, "dtype", np.float64) != np.float32 and step > 1e-4 * size
+    if is_coarse and not np.array_equal(seen, numbers(value, np.float64, "vertices")[is_finite]):
+        warn(f"vertices: float32 rounds them to steps of {step:g}, in a mesh of size {size:g}: {cure}")
+    elif size > 0 and not np.linalg.norm(high - low) > _SMALLEST * np.linalg.norm(high + low):
+        warn(
+            f"vertices: float32, in which cameras are placed, has steps of {step:g} where {mesh} of size {size:g} lies: views of the scene"
+            f" show it small: {cure}"
+        )
     return array
 
 

@@ -109,7 +109,7 @@ class Geometry(SceneBase):
         The index is an int whose member `instance` is the index of the instance that places the mesh, or None. set_instance(), look()
         and aovs["id"] - 1 mean that one: arm = scene.add_mesh(v, f), then scene.set_instance(arm.instance, matrix).
 
-        vertices: (n, 3) world units. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
+        vertices: (n, 3) world units; what has a corner that is not finite is left out, with a warning. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
         normals: (n, 3), "smooth" (made from the faces around each vertex, anew when they move), or None: each triangle is flat.
         uv, uv1: (n, 2), v = 0 is the first row of a texture. tangents: (n, 4), direction and +1 or -1.
         colors: (n, 3) or (n, 4), uint8 sRGB codes, or linear floats, where 1 is white; above 16 they are taken for codes and refused.
@@ -185,7 +185,7 @@ class Geometry(SceneBase):
         from . import _arrays
 
         with self._lock:
-            positions = _arrays.positions(vertices)
+            positions = _arrays.positions(vertices, f"mesh {shown(mesh)}")
             if isinstance(normals, str) and (normals != "smooth" or mesh not in self._smooth):
                 raise UsageError(f'normals: expected an array, or "smooth" for a mesh that was added so, found {normals!r}')
             made = normals is None or isinstance(normals, str)

@@ -21,7 +21,7 @@ class MeshArrays:
             raise UsageError(f"topology: expected one of {', '.join(CORNERS)}, found {topology!r}")
         self.topology = topology
         self.name = _c.bytes_of(name, "name")
-        positions = _arrays.positions(vertices)
+        positions = _arrays.positions(vertices, f"mesh {name!r}" if name else "a mesh")
         self.count = len(positions)
         self.corners = None if faces is None else _arrays.indices(faces, CORNERS[topology], self.count)
         if faces is None and self.count % CORNERS[topology]:
