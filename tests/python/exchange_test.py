@@ -69,6 +69,24 @@ class Tensors(unittest.TestCase):
             halflit.Scene().add_mesh(Learned(), FACES)
 
 
+    def test_a_tensor_that_fails_is_refused_by_name(self):
+        class Wrong:
+            def __init__(self, device, said):
+                self.device, self.said = device, said
+
+            def __dlpack_device__(self):
+                return self.device
+
+            def __dlpack__(self, **_):
+                if isinstance(self.said, Exception):
+                    raise self.said
+                return self.said
+
+        for wrong in (Wrong(3, 4), Wrong((1, 0), 4), Wrong((1, 0), ValueError("no\nmemory"))):
+            with self.assertRaisesRegex(halflit.UsageError, "^vertices: expected an array of numbers, found .* fails: [^\n]*$"):
+                halflit.Scene().add_mesh(wrong, FACES)
+
+
 class FileObjects(unittest.TestCase):
     def test_scenes_are_read(self):
         expected = halflit.render(box(), 32).pixel_hash
@@ -84,6 +102,11 @@ class FileObjects(unittest.TestCase):
                 file.write(b"glTF")
             with open(path, "rb") as file, self.assertRaisesRegex(halflit.BadInputError, "box.glb"):
                 halflit.Scene.load(file)
+        with tempfile.NamedTemporaryFile() as file:
+            file.write(b"\xd0\x00")
+            file.flush()
+            with open(file.name, encoding="utf-8") as text, self.assertRaisesRegex(halflit.UsageError, "^source: .*binary mode"):
+                halflit.Scene.load(text)
         with self.assertRaisesRegex(halflit.UsageError, "binary mode"):
             halflit.Scene.load(io.StringIO("solid"))
 

@@ -136,6 +136,10 @@ class Import(unittest.TestCase):
         for text in ("class Picture(", "contact_sheet(", "class Scene(", "class MeshIndex("):
             self.assertIn(text, said)
 
+    def test_the_default_of_metallic_is_told(self):
+        (told,) = re.findall(r"^ +metallic: .*\((.*)\)$", halflit.Material.__doc__, re.M)
+        self.assertEqual(told, f"{halflit.Material().metallic:g}; {halflit.Material(metallic_roughness_texture=0).metallic:g} with a metallic_roughness_texture")
+
     def test_a_library_that_is_not_there_is_named(self):
         code = "import halflit\ntry: halflit.version()\nexcept ImportError as error: print(error)"
         environment = {**os.environ, "PYTHONPATH": os.path.join(APPS, "python"), "HALFLIT_LIBRARY": "/nowhere/lib.so"}

@@ -120,11 +120,11 @@ class Refused(unittest.TestCase):
         scene.add_mesh(CORNERS, FACES)
         nan, inf = float("nan"), float("inf")
         for keywords, words in (
-            ({"fov": 500}, "fov_y_deg is not above 0 and below 180"),
-            ({"fov": nan}, "fov_y_deg"),
+            ({"fov": 500}, "fov is not above 0 and below 180"),
+            ({"fov": nan}, "fov: expected a finite number"),
             ({"zoom": nan}, "zoom"),
             ({"zoom": 0}, "zoom"),
-            ({"azimuth": inf}, "azimuth_deg"),
+            ({"azimuth": inf}, "azimuth: expected a finite number"),
             ({"ambient": (nan, 0, 0)}, "ambient: a number is not finite"),
             ({"background": (nan, 0, 0)}, "background: expected linear light"),
             ({"exposure": nan}, "exposure"),
@@ -252,7 +252,7 @@ class Refused(unittest.TestCase):
             (lambda: halflit.Light(position=3), "position: expected 3 numbers, found 3"),
             (lambda: halflit.Light("point", color=(1, -1, 0)), r"color: expected light from 0 on, found \(1, -1, 0\)"),
             (lambda: halflit.render("demo", "big"), "size: expected whole numbers, found 'big'"),
-            (lambda: halflit.render("demo", 8, elevation=91), "halflit_picture_request: elevation_deg is not from -90 to 90"),
+            (lambda: halflit.render("demo", 8, elevation=91), "elevation is not from -90 to 90"),
             (lambda: halflit.Scene.load(box(), strict="no"), "strict: expected True or False"),
             (lambda: halflit.Scene.load(box(), crease_deg="sharp"), "crease_deg: expected a number"),
             (lambda: halflit.Scene.load(box(), time="1"), "time: expected a number"),

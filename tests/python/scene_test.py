@@ -424,7 +424,7 @@ class Parts(unittest.TestCase):
             halflit.Camera(mirrored)
         with self.assertRaisesRegex(halflit.UsageError, "cannot be combined with azimuth"):
             render(scene, camera=camera, azimuth=3)
-        with self.assertRaisesRegex(halflit.UsageError, "expected '1', but the scene has no camera"):
+        with self.assertRaisesRegex(halflit.UsageError, "^camera: .*the scene has no camera"):
             render(scene, camera=1)
 
     def test_errors_tell_what_is_wrong(self):
@@ -509,6 +509,49 @@ class Parts(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             halflit.Scene().add_mesh(CORNERS.astype(float) + 4e5, FACES)
+
+    def test_messages_name_the_argument(self):
+        scene = halflit.Scene()
+        scene.add_mesh(CORNERS, FACES)
+        nan, k, turn = float("nan"), [[600, 0, 32], [0, 600, 32], [0, 0, 1]], np.eye(3)
+        by_intrinsics, load = halflit.Camera.from_intrinsics, halflit.Scene.load
+        for said, call in (
+            ("K: a number is not finite", lambda: by_intrinsics(np.multiply(k, nan), 64, turn, (0, 0, 1))),
+            ("K: expected fx and fy above 0, found 0", lambda: by_intrinsics(np.zeros((3, 3)), 64, turn, (0, 0, 1))),
+            ("K: expected numbers of shape", lambda: by_intrinsics([1], 64, turn, (0, 0, 1))),
+            ("R: expected rows of length 1", lambda: by_intrinsics(k, 64, 2 * turn, (0, 0, 1))),
+            ("size: ", lambda: by_intrinsics(k, (64, nan), turn, (0, 0, 1))),
+            ("first_pixel: ", lambda: by_intrinsics(k, 64, turn, (0, 0, 1), "a")),
+            *((f"{name}: expected a finite number", lambda name=name: scene.render(8, **{name: nan}))
+              for name in ("azimuth", "elevation", "zoom", "fov", "studio_turn")),
+            ("elevation is not from -90 to 90", lambda: scene.render(8, elevation=91)),
+            ("fov is not above 0", lambda: scene.render(8, fov=-1)),
+            ("view: expected a finite number", lambda: scene.render(8, view=(nan, 0))),
+            ("threads is -1", lambda: scene.render(8, threads=-1)),
+            ("isa: 'x86'", lambda: scene.render(8, isa="x86")),
+            ("material 5, but", lambda: scene.add_mesh(CORNERS, FACES, material=5)),
+            ("mesh 5, but", lambda: scene.set_instance(0, mesh=5)),
+            ("source: .* found None", lambda: load(None)),
+            ("time: ", lambda: load(box(), time=nan)),
+            ("pose: ", lambda: scene.pose("walk")),
+            ("camera_frame: aspect", lambda: scene.frame(-1)),
+            ("scene: expected a Scene, found 3", lambda: halflit.Camera.view(3)),
+            ("theta: ", lambda: halflit.Camera.orbit(nan, 0, 1)),
+            ("target: ", lambda: halflit.Camera.orbit(0, 0, 1, (nan, 0, 0))),
+            ("poses: ", lambda: scene.setup(8, poses=3)),
+            ("poses: ", lambda: scene.setup(8, poses=[3])),
+            ("cameras: .* found 3", lambda: scene.render_arrays(3, 8)),
+            ("cameras: .* found 3", lambda: scene.render_batch(3, 8)),
+            ("views: .* found 'front'", lambda: scene.render_views("front", 8)),
+            ("meshes: .* found 3", lambda: halflit.render_meshes(3, 8)),
+            ("name: expected a text of Unicode", lambda: scene.add_mesh(CORNERS, FACES, name="\ud800")),
+            ("camera: expected a text of Unicode", lambda: scene.render(8, camera="\ud800")),
+            ("name: ", lambda: scene.set_name("mesh", 0, None)),
+        ):  # fmt: skip
+            with self.assertRaisesRegex(halflit.UsageError, "^" + said) as told:
+                call()
+            self.assertNotIn("halflit_", str(told.exception))
+            self.assertNotIn("\n", str(told.exception))
 
     def test_numbers_that_c_cannot_hold_are_refused(self):
         scene = halflit.Scene()

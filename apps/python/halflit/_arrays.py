@@ -34,12 +34,23 @@ def array_of(value: Any, name: str) -> Array:
 def _in_main_memory(value: Any, name: str) -> Any:
     """A tensor of another library as numpy's array, by the protocol DLPack if it has no other. One in a GPU's memory is refused."""
     device = getattr(value, "__dlpack_device__", None)
-    is_elsewhere = bool(getattr(value, "is_cuda", False)) or (device is not None and device()[0] not in _MAIN_MEMORY)
+    try:
+        is_elsewhere = bool(getattr(value, "is_cuda", False)) or (device is not None and device()[0] not in _MAIN_MEMORY)
+    except Exception as error:  # whatever an object of another library raises
+        raise _no_tensor(value, name, "__dlpack_device__", error) from None
     if is_elsewhere:
         raise UsageError(f"{name}: expected an array in main memory, found one on a GPU: hand over a copy, as by tensor.cpu()")
     if hasattr(value, "__dlpack__") and not hasattr(value, "__array__") and hasattr(np, "from_dlpack"):
-        return np.from_dlpack(value)
+        try:
+            return np.from_dlpack(value)
+        except Exception as error:
+            raise _no_tensor(value, name, "__dlpack__", error) from None
     return value
+
+
+def _no_tensor(value: Any, name: str, method: str, error: Exception) -> UsageError:
+    said = " ".join(str(error).split())
+    return UsageError(f"{name}: expected an array of numbers, found {shown(value)}, whose {method} fails: {said}")
 
 
 def numbers(value: Any, kind: Any, name: str) -> Array:

@@ -190,7 +190,20 @@ def call(name: str, *arguments: Any) -> None:
     code = called(*map(converted, called.argtypes, arguments, called.names))
     if code:
         path = arguments[_PATHS[name]] if name in _PATHS else None
-        raise made(code, function("last_error")().decode("utf-8", "replace"), path)
+        raise made(code, _told(function("last_error")().decode("utf-8", "replace")), path)
+
+
+#: Names of halflit.h in messages -> keywords.
+_KEYWORDS = {"azimuth_deg": "azimuth", "elevation_deg": "elevation", "fov_y_deg": "fov", "studio_turn_rad": "studio_turn", "time_s": "time"}
+
+
+def _told(text: str) -> str:
+    """A message of the library without the struct that it begins with, which Python's callers do not see; a function has its short name."""
+    found = re.match(r"(halflit_\w+): (isa: )?", text)
+    if found is None:
+        return text
+    rest = text[found.end() :] if found.group(1) in STRUCT else re.sub("^halflit_(scene_)?", "", text)
+    return re.sub("|".join(_KEYWORDS), lambda name: _KEYWORDS[name.group()], rest)
 
 
 class Handle:
@@ -213,13 +226,23 @@ def text_of(value: Any) -> str:
     return (value or b"").decode("utf-8", "replace")
 
 
+def required(value: Any, name: str) -> Any:
+    """The same; None is no text."""
+    if value is None:
+        raise UsageError(f"{name}: expected a text or a path, found None")
+    return bytes_of(value, name)
+
+
 def bytes_of(value: Any, name: str) -> bytes | None:
-    """A text, or a path, as the library takes it."""
+    """A text, or a path, as the library takes it. None stays."""
     if value is None:
         return None
     if not isinstance(value, (str, bytes, os.PathLike)):
         raise UsageError(f"{name}: expected a text or a path, found {shown(value)}")
-    text = os.fsencode(value)
+    try:
+        text = os.fsencode(value)
+    except UnicodeEncodeError:  # half of a pair of surrogates
+        raise UsageError(f"{name}: expected a text of Unicode's characters, found {ascii(value)}") from None
     if b"\0" in text:  # C would read up to it
         raise UsageError(f"{name}: expected a text or a path without NUL, found {value!r}")
     return text

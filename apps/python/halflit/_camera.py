@@ -11,7 +11,7 @@ from ._lazy import np
 from ._members import CameraMembers
 from ._record import Record
 from ._types import Array, Point, Unpack
-from ._values import real, reals, shown, up_axis
+from ._values import finite, real, reals, shown, up_axis
 
 
 class Camera(Record):
@@ -136,8 +136,8 @@ class Camera(Record):
         theta: degrees about the vertical axis, from +z towards +x. phi: degrees from straight above. radius: world units. up: the world's
         vertical axis, "x", "y", "z", "-x", "-y" or "-z".
         """
-        camera, at = cls(**members), np.array(reals(target, 3, "target"))
-        angles = real(theta, "theta"), 90 - real(phi, "phi")
+        camera, at = cls(**members), np.array([finite(x, "target") for x in reals(target, 3, "target")])
+        angles = finite(theta, "theta"), 90 - finite(phi, "phi")
         if not 0 < real(radius, "radius") < math.inf:
             raise UsageError(f"radius: expected a distance above 0, found {shown(radius)}")
         _c.call("camera_orbit", (ctypes.c_double * 3)(), *angles, 1.0, up_axis(up), ctypes.byref(camera._c))
@@ -154,9 +154,12 @@ class Camera(Record):
         picture. options: zoom, fov, orthographic and fit, as in render().
         """
         from ._options import check_names
+        from ._scene_base import SceneBase
         from ._setup import checked_size
         from ._views import drawn_views
 
+        if not isinstance(scene, SceneBase):
+            raise UsageError(f"scene: expected a Scene, found {shown(scene)}")
         check_names(options, ("zoom", "fov", "orthographic", "fit"), "Camera.view")
         camera: Camera = scene._world.out(drawn_views(scene, [view], checked_size(size), options)[0])
         return camera
@@ -170,17 +173,25 @@ class Camera(Record):
         have their corners at whole numbers. Draw pictures of that size, or of its shape.
         """
         from ._arrays import numbers
+        from ._setup import checked_size
 
         given = []
         for value, shape, name in ((K, (3, 3), "K"), (R, (3, 3), "R"), (t, (3,), "t")):
             array = numbers(value, np.float64, name)
-            if array.size != math.prod(shape) or not np.isfinite(array).all():
-                raise UsageError(f"{name}: expected finite numbers of shape {shape}, found shape {array.shape}")
+            if array.size != math.prod(shape):
+                raise UsageError(f"{name}: expected numbers of shape {shape}, found shape {array.shape}")
+            if not np.isfinite(array).all():
+                raise UsageError(f"{name}: a number is not finite")
             given.append((ctypes.c_double * array.size)(*array.ravel()))
-        width, height = (int(x) for x in reals(size, 2, "size"))
+        width, height = checked_size(size)
         camera = cls(**members)
         k, turn, move = given
-        _c.call("camera_from_intrinsics", k, width, height, turn, move, float(first_pixel), ctypes.byref(camera._c))
+        if not (k[0] > 0 and k[4] > 0):
+            raise UsageError(f"K: expected fx and fy above 0, found {k[0]:g} and {k[4]:g}")
+        try:
+            _c.call("camera_from_intrinsics", k, width, height, turn, move, finite(first_pixel, "first_pixel"), ctypes.byref(camera._c))
+        except UsageError as error:
+            raise UsageError(str(error).replace("rotation: ", "R: ").replace("intrinsics: ", "K: ")) from None
         matrix = np.eye(4)
         matrix[:3, :3] = np.array(turn).reshape(3, 3).T * (1, -1, -1)
         matrix[:3, 3] = -np.array(turn).reshape(3, 3).T @ np.array(move)

@@ -305,7 +305,7 @@ class Geometry(SceneBase):
 
     def set_name(self, part: str, index: int, name: str) -> None:
         """Names an "instance", a "mesh" or a "material"."""
-        self._change("scene_set_name", chosen(part, "PART", "part"), index, _c.bytes_of(name, "name"))
+        self._change("scene_set_name", chosen(part, "PART", "part"), index, _c.required(name, "name"))
 
     @property
     def nodes(self) -> List[Dict[str, Any]]:

@@ -14,9 +14,9 @@ from ._values import reals, shown
 
 #: Members that not all lights have -> the types that do.
 _TYPES = {
-    **dict.fromkeys(("position", "range", "source_radius"), ("point", "spot")),
-    "direction": ("directional", "spot"),
-    **dict.fromkeys(("inner_cone_rad", "outer_cone_rad", "cone_power"), ("spot",)),
+    **dict.fromkeys(("position", "range", "source_radius"), {"point", "spot"}),
+    "direction": {"directional", "spot"},
+    **dict.fromkeys(("inner_cone_rad", "outer_cone_rad", "cone_power"), {"spot"}),
 }
 
 

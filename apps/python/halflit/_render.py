@@ -82,6 +82,8 @@ def render_meshes(
     """
     from ._batch import draw_meshes
 
+    if not hasattr(meshes, "__iter__"):
+        raise UsageError(f"meshes: expected an iterable of (vertices, faces) or dicts, found {shown(meshes)}")
     return draw_meshes(meshes, size, material, dict(options))
 
 

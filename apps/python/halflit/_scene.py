@@ -16,11 +16,12 @@ from ._lighting import Lighting
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
 from ._types import Array, Size, Unpack
-from ._values import real, truth, up_axis, whole
+from ._values import finite, listed, truth, up_axis, whole
 from ._world import World
 
 #: Members of halflit_load_options that are truths, and those that have a keyword of their own.
 _TRUTHS = ("strict",)
+_CAMERAS = "a list of cameras, or of (azimuth, elevation)"
 _MOST = {"crease_deg": 180.0, "time_limit_s": sys.float_info.max}  # of numbers from 0
 _NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre", "up")
 
@@ -90,15 +91,19 @@ class Scene(Geometry, Lighting):
             setattr(how, name, truth(value, name) if name in _TRUTHS else value)
             if name in _MOST and not 0 <= getattr(how, name) <= _MOST[name]:  # NaN neither
                 raise UsageError(f"{name}: expected a number from 0 {'on' if _MOST[name] > 1e9 else f'to {_MOST[name]:g}'}, found {value!r}")
-        how.put("time_s", time, "time")
+        how.time_s = finite(time, "time")
         how.keep_animations, how.recentre = truth(keep_animations, "keep_animations"), truth(recentre, "recentre")
         how.up = 0 if up is None else up_axis(up)
         for name, text in (("animation", animation), ("scene", scene), ("variant", variant)):
             setattr(how, name, None if text is None else _c.bytes_of(str(text), name))
         read, name = getattr(source, "read", None), "bytes"
         if read is not None:
-            source, named = read(), getattr(source, "name", None)
+            named = getattr(source, "name", None)
             name = named if isinstance(named, str) else "file"
+            try:
+                source = read()
+            except UnicodeDecodeError:  # it reads text
+                source = ""
             if not isinstance(source, bytes):
                 raise UsageError(f"source: expected a file that is open in binary mode, found one that reads {type(source).__name__}")
         if isinstance(source, (bytes, bytearray, memoryview)):
@@ -106,7 +111,7 @@ class Scene(Geometry, Lighting):
             names_of_both = os.fsencode(name), _c.bytes_of(base_dir, "base_dir")
             handle = _c.Handle("scene_load_memory", "scene_destroy", data, len(data), *names_of_both, ctypes.byref(how))
         else:
-            handle = _c.Handle("scene_load", "scene_destroy", _c.bytes_of(source, "source"), ctypes.byref(how))
+            handle = _c.Handle("scene_load", "scene_destroy", _c.required(source, "source"), ctypes.byref(how))
         made = cls._of(handle)
         origin, scale = (ctypes.c_double * 3)(), ctypes.c_double()
         made._call("scene_get_placement", origin, ctypes.byref(scale), None)
@@ -153,7 +158,7 @@ class Scene(Geometry, Lighting):
 
     def pose(self, animation: Union[str, int, None] = None, time: float = 0.0) -> None:
         """Poses a scene, loaded with keep_animations=True, by an animation (name, index, "none"; the first) at a time in seconds."""
-        self._change("scene_pose", None if animation is None else _c.bytes_of(str(animation), "animation"), real(time, "time"))
+        self._change("scene_pose", None if animation is None else _c.bytes_of(str(animation), "animation"), finite(time, "time"))
 
     @property
     def bounds(self) -> Optional[Array]:
@@ -223,7 +228,8 @@ class Scene(Geometry, Lighting):
 
         ahead: number of pictures that a thread draws while the caller uses the last one; leave the scene alone meanwhile.
 
-        cameras: each a Camera, its matrix, a camera of the file, or (azimuth, elevation) in degrees. light: "fixed": exposure and the light
+        cameras: each a Camera, its matrix, a camera of the file, or (azimuth, elevation) in degrees. By angles, each camera is as near as
+        its side allows, as in render(azimuth=, elevation=), so distances differ; render_views() keeps one distance and one scale. light: "fixed": exposure and the light
         that is chosen are those of the first camera, so that a surface looks the same in all pictures; "viewer": the studio turns with
         each camera, and the pictures are those of render(). The other keywords are those of render() but for the view, setup and out.
 
@@ -233,7 +239,7 @@ class Scene(Geometry, Lighting):
         """
         from ._frame import draw_batch
 
-        drawn = draw_batch(self, list(cameras), size, light, dict(options))
+        drawn = draw_batch(self, listed(cameras, "cameras", _CAMERAS), size, light, dict(options))
         if whole(ahead, "ahead", 0, 1000) == 0:
             return drawn
         from ._batch import drawn_ahead
@@ -250,7 +256,7 @@ class Scene(Geometry, Lighting):
         """
         from ._batch import draw_arrays
 
-        return draw_arrays(self, list(cameras), size, light, dict(options))
+        return draw_arrays(self, listed(cameras, "cameras", _CAMERAS), size, light, dict(options))
 
     def render_views(self, views: Sequence[Any], size: Size = None, *, light: str = "viewer", **options: Unpack[PictureOptions]) -> Dict[Any, pictures.Picture]:
         """Pictures of several sides that can be compared, by one distance and one scale, as `halflit render --view`: a dict of pictures by
@@ -265,7 +271,7 @@ class Scene(Geometry, Lighting):
         """
         from ._frame import draw_views
 
-        return draw_views(self, list(views), size, light, dict(options))
+        return draw_views(self, listed(views, "views", "a list of names, or of (azimuth, elevation)"), size, light, dict(options))
 
     def motion(self, picture: pictures.Picture, camera: Camera, scene: Optional[Scene] = None) -> Array:
         """How far each point that a picture of this scene shows moves to the picture by another camera: float32 (height, width, 2), pixels,

@@ -12,7 +12,7 @@ from ._errors import UsageError
 from ._lazy import np
 from ._options import VIEW, WHOLE_SCENE, check_names
 from ._record import chosen
-from ._values import real, shown, sized
+from ._values import finite, listed, real, shown, sized
 from ._views import drawn_views, has_parallel_rays, margins
 from ._world import World
 
@@ -110,7 +110,7 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
             camera = scene._world.into(given_camera(given))
     for name, member in (("azimuth", "azimuth_deg"), ("elevation", "elevation_deg"), ("zoom", "zoom"), ("fov", "fov_y_deg")):
         if name in whole_scene:
-            struct.put(member, options[name], name)
+            struct.put(member, finite(options[name], name), name)
     if options.get("view") is not None:
         for name in ("azimuth", "elevation"):
             if name in whole_scene:
@@ -139,7 +139,7 @@ def light_of(scene: Any, options: Dict[Any, Any], struct: Any) -> None:
     if given is None or isinstance(given, str):
         struct.studio = chosen(studio, "STUDIO", "studio")
     turn = options.get("studio_turn")
-    struct.studio_turn_rad = 0.0 if turn is None else math.radians(real(turn, "studio_turn"))
+    struct.studio_turn_rad = 0.0 if turn is None else math.radians(finite(turn, "studio_turn"))
 
 
 def given_camera(given: Any) -> Camera:
@@ -204,12 +204,15 @@ def checked_box(bounds: Any) -> Any:
 
 def boxes_of_poses(scene: Any, poses: Iterable[Any]) -> List[Any]:
     """The boxes of the scene in these poses. Matrices are put back."""
+    from ._arrays import matrices
+
     boxes: List[Any] = []
     before: List[Any] = []
-    for pose in poses:
+    for pose in listed(poses, "poses", "functions that pose the scene, or matrices (n, 4, 4)"):
         if callable(pose):
             pose()
         else:
+            pose = matrices(pose, "poses")
             before += [scene.instance(i)[1] for i in range(len(before), len(pose))]
             scene.set_instances(pose)
         if scene.bounds is not None:

@@ -1,8 +1,9 @@
 """Numbers of a caller. What is none is refused by the argument's name; nothing is cut off or guessed."""
 from __future__ import annotations
 
-from typing import Any, List, Tuple
+import math
 import operator
+from typing import Any, List, Tuple
 
 from ._errors import UsageError
 
@@ -62,6 +63,24 @@ def sized(value: Any, name: str) -> Tuple[Any, ...]:
         return tuple(whole(x, name, -(2**31), 2**31 - 1) for x in value)
     except TypeError:
         raise UsageError(f"{name}: expected whole numbers, found {shown(value)}") from None
+
+
+def listed(value: Any, name: str, what: str) -> List[Any]:
+    """The entries of an iterable. A text is none: it would be taken for its letters."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return list(value)
+    except TypeError:
+        raise UsageError(f"{name}: expected {what}, found {shown(value)}") from None
+
+
+def finite(value: Any, name: str) -> float:
+    """A number that is not infinite or NaN."""
+    number = real(value, name)
+    if not math.isfinite(number):
+        raise UsageError(f"{name}: expected a finite number, found {number}")
+    return number
 
 
 def up_axis(name: str) -> int:

@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 from . import _c
 from ._camera import Camera
 from ._errors import UsageError
-from ._values import real, shown, truth
+from ._values import finite, real, shown, truth
 
 #: Pixels of a picture without a size.
 USUAL_SIZE = (1280, 720)
@@ -35,8 +35,7 @@ def view_struct(scene: Any, view: Any, size: Optional[Tuple[int, int]], options:
     if isinstance(view, str):
         scene._call("view_by_name", _c.bytes_of(view, "view"), ctypes.byref(struct))
     elif isinstance(view, (tuple, list)) and len(view) == 2:
-        struct.put("azimuth_deg", view[0], "view")
-        struct.put("elevation_deg", view[1], "view")
+        struct.azimuth_deg, struct.elevation_deg = (finite(angle, "view") for angle in view)
     else:
         raise UsageError(f"view: expected a name such as 'front' or 'iso', or (azimuth, elevation) in degrees, found {shown(view)}")
     for name, member in (("zoom", "zoom"), ("fov", "fov_y_deg")):
