@@ -141,7 +141,7 @@ Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std:
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     if (error == std::errc() && end == wanted.data() + wanted.size() && index < cameras.size()) return &cameras[index];
-    if (cameras.empty()) return fail(ErrorCode::usage, "camera: expected '" + wanted + "', but the scene has no camera");
+    if (cameras.empty()) return fail(ErrorCode::usage, "camera: the scene has no camera, found '" + wanted + "'");
     return fail(ErrorCode::usage,
                 "camera: expected an index below " + std::to_string(cameras.size()) + " or a camera's name, found '" + wanted + "'");
 }

@@ -73,6 +73,8 @@ def c_members():
 def python_docs():
     lines = []
     for name, _, default, doc, _, _ in properties():
+        if name == "metallic":  # Material.__setattr__
+            default = "0; 1 with a metallic_roughness_texture"
         text = f"{name}: {doc}" + (f" ({default})" if default else "")
         lines += textwrap.wrap(text, 132, initial_indent=" " * 8, subsequent_indent=" " * 12)
     return "\n".join(lines) + "\n"

@@ -1235,7 +1235,7 @@ static void test_setup(void) {
     options.camera = NULL;
     options.scene_camera = "3";
     CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE,
-                "camera: expected '3', but the scene has no camera");
+                "camera: the scene has no camera, found '3'");
     options.scene_camera = NULL;
     CHECK_OK(halflit_choose_picture(cube.scene, &options, size, &cube.camera, &cube.settings, NULL));
     CHECK(size[0] == 1280 && size[1] == 720);

@@ -56,6 +56,20 @@ class Planes(unittest.TestCase):
         with self.assertRaisesRegex(halflit.UsageError, "aovs: expected names of depth, normal"):
             scene.render(8, aovs=["depth", "speed"])
 
+    def test_positions_are_seen_where_they_are_shown(self):
+        # Vertices are rounded to 1/256 pixel, so points between them move by at most half of that; float32 rounds as well.
+        for azimuth, size in ((35, (320, 240)), (80, (97, 201)), (200, (640, 640))):
+            picture = cube().render(size, azimuth=azimuth, samples=1, aovs=["position", "id"])
+            camera, (width, height) = picture.camera, size
+            shown = picture.aovs["id"] > 0
+            own = (picture.aovs["position"][shown] - camera.matrix[:3, 3]) @ camera.matrix[:3, :3]
+            scale = height / 2 / np.tan(camera.fov_y_rad / 2)
+            x, y = width / 2 - own[:, 0] / own[:, 2] * scale, height / 2 + own[:, 1] / own[:, 2] * scale
+            row, column = np.nonzero(shown)
+            worst = max(np.abs(x - column - 0.5).max(), np.abs(y - row - 0.5).max())
+            self.assertLess(worst, 1 / 512 + 2e-4)
+            self.assertGreater(len(row), 1000)
+
     def test_planes_of_a_far_model_are_in_its_world(self):
         with self.assertWarnsRegex(UserWarning, "drawn at the origin"):
             far = halflit.render(box(translation=[1e6, 0, 0]), 40, aovs=["position", "depth", "id"])

@@ -38,7 +38,7 @@ class Lobe(Record):
     def named(cls, name: str, wrap: float = 0.5) -> Lobe:
         """A lobe of the literature. wrap: 0 to 1, for those that take one."""
         lobe = cls()
-        _c.call("lobe_by_name", _c.bytes_of(name, "lobe"), wrap, ctypes.byref(lobe._c))
+        _c.call("lobe_by_name", _c.required(name, "lobe"), wrap, ctypes.byref(lobe._c))
         return lobe
 
     @classmethod
@@ -114,7 +114,7 @@ class Material(Record):
         lobe: of diffuse light (lambert)
         shadow_catcher: invisible but for the shadows on it (False)
         base_color: linear, in [0, 1]; the fourth number is alpha (1, 1, 1, 1)
-        metallic: in [0, 1] (1)
+        metallic: in [0, 1] (0; 1 with a metallic_roughness_texture)
         roughness: in [0, 1] (1)
         dielectric_reflectance: F0 of dielectrics: reflectance at normal incidence where not metallic, in [0, 1] (0.04)
         emissive: light of its own, linear, from 0 (0, 0, 0)

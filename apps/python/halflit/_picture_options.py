@@ -58,7 +58,8 @@ class PictureOptions(ViewOptions, total=False):
         dtype: numpy.uint8 (sRGB codes) or numpy.float32 (linear light) (uint8, or that of out)
         premultiplied: colours are multiplied by alpha (False)
         out: the array to draw into, (height, width, 4); rows may have gaps (a new one)
-        aovs: names of AOVS, or "all" (none)
+        aovs: names of AOVS, or "all" (none). Vertices are rounded to multiples of 1/256 pixel, so the picture's camera sees a
+            "position" within 1/512 pixel, on each axis, of the pixel that has it
         edge_color: of the lines of `edges`: "#rrggbb" or linear numbers (black)
         lobe: of materials without a lobe of their own (lambert)
 

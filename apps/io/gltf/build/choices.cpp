@@ -27,7 +27,7 @@ std::string list_of(const std::vector<std::string>& names) {
 
 int scene_index(const std::vector<std::string>& names, const std::string& wanted) {
     if (const int index = name_or_index(names, wanted); index >= 0) return index;
-    if (names.empty()) refuse("", fmt::format("scene: the file has none, expected '{}'", printable(wanted, 80)), ErrorCode::usage);
+    if (names.empty()) refuse("", fmt::format("scene: the file has none, found '{}'", printable(wanted, 80)), ErrorCode::usage);
     refuse("",
            fmt::format("scene: expected an index below {} or a scene's name ({}), found '{}'", names.size(), list_of(names),
                        printable(wanted, 80)),
@@ -37,7 +37,7 @@ int scene_index(const std::vector<std::string>& names, const std::string& wanted
 int variant_index(const std::vector<std::string>& names, const std::string& wanted) {
     if (const auto named = std::find(names.begin(), names.end(), wanted); named != names.end())
         return static_cast<int>(named - names.begin());
-    if (names.empty()) refuse("", fmt::format("variant: the file has none, expected '{}'", printable(wanted, 80)), ErrorCode::usage);
+    if (names.empty()) refuse("", fmt::format("variant: the file has none, found '{}'", printable(wanted, 80)), ErrorCode::usage);
     refuse("", fmt::format("variant: expected one of {}, found '{}'", list_of(names), printable(wanted, 80)), ErrorCode::usage);
 }
 
@@ -103,7 +103,7 @@ int choose_animation(const std::vector<std::string>& names, const std::string& w
     if (wanted == "none") return -1;
     if (wanted.empty()) return names.empty() ? -1 : 0;
     if (const int index = name_or_index(names, wanted); index >= 0) return index;
-    if (names.empty()) refuse("", fmt::format("animation: the file has none, expected '{}'", printable(wanted, 80)), ErrorCode::usage);
+    if (names.empty()) refuse("", fmt::format("animation: the file has none, found '{}'", printable(wanted, 80)), ErrorCode::usage);
     refuse(
         "",
         fmt::format("animation: expected an index below {}, an animation's name or none, found '{}'", names.size(), printable(wanted, 80)),
