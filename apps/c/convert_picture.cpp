@@ -1,6 +1,5 @@
 // Conversions of what describes a picture. The constants and the layout of halflit.h are checked here too.
 #include "apps/c/convert_parts.hpp"
-#include "apps/c/interrupt.hpp"
 #include "raster/settings_table.hpp"
 
 #include <algorithm>
@@ -271,8 +270,6 @@ Result<Execution> execution(const halflit_execution* given) {
     execution.memory_limit = read->memory_limit;
     void* const user = read->user;
     if (auto* const cancelled = read->cancelled) execution.cancelled = [=] { return cancelled(user) != 0; };
-    if (read->stop_at_interrupt != 0)
-        execution.cancelled = [before = execution.cancelled] { return InterruptWatch::raised() || (before && before()); };
     if (auto* const on_tile = read->on_tile) execution.on_tile = [=](const Region& r) { on_tile(user, r.x, r.y, r.width, r.height); };
     if (auto* const progress = read->progress) execution.progress = [=](double share) { progress(user, share); };
     if (auto* const parallel_for = read->parallel_for)

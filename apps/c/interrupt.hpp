@@ -1,9 +1,14 @@
 // The signal of Ctrl-C, which ends a frame.
 #pragma once
 
+#include "halflit/settings.hpp"
+
+#include <cstdint>
+
 namespace halflit::c {
 
-/// While one lives, SIGINT sets a flag before the process's own handler runs. The last one puts that handler back.
+/// While one lives, SIGINT is counted before the process's own handler runs. The last one puts that handler back. A process that ignores
+/// the signal goes on doing so. It moves neither to another process nor to another thread: a forked child has none.
 class InterruptWatch {
 public:
     /// is_wanted: otherwise it does nothing.
@@ -12,11 +17,15 @@ public:
     InterruptWatch(const InterruptWatch&) = delete;
     InterruptWatch& operator=(const InterruptWatch&) = delete;
 
-    /// The signal came since the first of those that live began.
-    [[nodiscard]] static bool raised() noexcept;
+    /// The signal came since this watch began.
+    [[nodiscard]] bool raised() const noexcept;
+    /// The same execution, which stops when raised() too. The watch has to outlive it.
+    [[nodiscard]] Execution stopping(const Execution& execution) const;
 
 private:
     bool is_wanted_;
+    std::uint32_t start_ = 0;  ///< number of signals
+    int process_ = 0;
 };
 
 }  // namespace halflit::c

@@ -100,13 +100,15 @@ void turn_planes_back(const halflit_target& target, const Region& region, UpAxis
 /// Prepares the scene, if it has changed, and draws it.
 Result<RenderReport> draw(halflit_renderer& by, const halflit_scene& scene, const halflit_lighting* lighting, const Camera& camera,
                           const Settings& settings, const Target& target) {
+    const InterruptWatch watch(by.stops_at_interrupt);
+    const Execution execution = watch.stopping(by.execution);
     const auto start = std::chrono::steady_clock::now();
     const DrawingScene drawing(scene);
-    if (auto ok = scene.prepare(by.execution); !ok) return tl::unexpected<Error>(ok.error());
+    if (auto ok = scene.prepare(execution); !ok) return tl::unexpected<Error>(ok.error());
     const double prepare_ms = ms_since(start);
     std::optional<Lighting> moved;
     const Lighting& light = light_of(scene.scene, lighting, moved);
-    auto report = by.renderer.render(*scene.prepared, light, camera, settings, target, by.execution);
+    auto report = by.renderer.render(*scene.prepared, light, camera, settings, target, execution);
     if (!report) return report;
     report->ms.prepare = prepare_ms;
     report->total_ms += prepare_ms;
@@ -162,7 +164,6 @@ int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, c
                               const auto memory = target_struct(given_target);
                               if (!memory) return tl::unexpected<Error>(memory.error());
                               renderer->warnings.clear();
-                              const InterruptWatch watch(renderer->stops_at_interrupt);
                               auto report = draw(*renderer, *scene, lighting, scene->drawn(*from), *how, target(*memory));
                               if (!report) return tl::unexpected<Error>(report.error());
                               turn_planes_back(*memory, how->region, scene->up);
@@ -200,11 +201,12 @@ int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, 
                                   given->shadow_size};
         const bool is_known = known.probes > 0;
         const InterruptWatch watch(renderer->stops_at_interrupt);
+        const Execution execution = watch.stopping(renderer->execution);
         const DrawingScene drawing(*scene);
-        if (auto ok = scene->prepare(renderer->execution); !ok) return ok;
+        if (auto ok = scene->prepare(execution); !ok) return ok;
         std::optional<Lighting> moved;
         const auto found = Renderer::measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->drawn(*from), *how,
-                                             known.asked, width, height, is_known ? &known : nullptr, renderer->execution);
+                                             known.asked, width, height, is_known ? &known : nullptr, execution);
         if (!found) return tl::unexpected<Error>(found.error());
         halflit_measured out = *given;
         out.percent = found->percent, out.probes = found->probes, out.outside = found->outside;

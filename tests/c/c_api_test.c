@@ -1060,6 +1060,11 @@ static void raise_interrupt(void* user, double share) {
     if (interrupts == 0) raise(SIGINT);
 }
 
+static void raise_always(void* user, double share) {
+    (void)user, (void)share;
+    raise(SIGINT);
+}
+
 /// SIGINT stops a frame that asks for it. The process's own handler runs, and is back after the frame.
 static void test_interrupt(void) {
     Cube cube = make_cube();
@@ -1087,7 +1092,77 @@ static void test_interrupt(void) {
     CHECK(interrupts == 1);
     CHECK(signal(SIGINT, SIG_DFL) == count_interrupt);
     CHECK(draw_cube(renderer, &cube) == expected);  // no signal comes, as one has been counted
+    interrupts = 0;
+    signal(SIGINT, SIG_IGN);
+    execution.progress = raise_always;
+    CHECK_OK(halflit_renderer_set_execution(renderer, &execution));
+    CHECK(draw_cube(renderer, &cube) == expected);  // a process that ignores the signal goes on doing so
+    CHECK(signal(SIGINT, SIG_DFL) == SIG_IGN);
     halflit_renderer_destroy(renderer);
+    free_cube(&cube);
+}
+
+/// A frame that is drawn while another one is.
+typedef struct {
+    halflit_renderer* renderer;
+    Cube cube;
+    int is_stopped;  ///< it is to be
+    int32_t code;    ///< of halflit_render(); -1: not drawn yet
+} Inner;
+
+static void other_handler(int number) {
+    (void)number;
+    interrupts += 100;
+}
+
+static void draw_inner(void* user, double share) {
+    Inner* inner = (Inner*)user;
+    static uint8_t pixels[PIXELS * 4];
+    const halflit_target target = make_target(pixels);
+    (void)share;
+    if (inner->code != -1) return;
+    if (inner->is_stopped)
+        signal(SIGINT, other_handler);  // in the place of the library's
+    else
+        raise(SIGINT);
+    inner->code =
+        halflit_render(inner->renderer, inner->cube.scene, inner->cube.lighting, &inner->cube.camera, &inner->cube.settings, &target, NULL);
+}
+
+/// A signal stops the frames that are drawn when it comes, and no later one. A handler that is set meanwhile is called, and stays.
+static void test_interrupt_of_overlapping_frames(void) {
+    Cube cube = make_cube();
+    Inner inner;
+    halflit_execution execution;
+    halflit_renderer* renderer;
+    int i;
+    inner.cube = make_cube();
+    for (i = 0; i < 2; ++i) {
+        static uint8_t pixels[PIXELS * 4];
+        const halflit_target target = make_target(pixels);
+        int32_t code;
+        inner.is_stopped = i;
+        inner.code = -1;
+        interrupts = 0;
+        CHECK_OK(halflit_execution_init(&execution, sizeof execution));
+        execution.stop_at_interrupt = 1;
+        execution.tile_size = 16;
+        execution.threads = 1;
+        if (inner.is_stopped) execution.progress = raise_always;
+        CHECK_OK(halflit_renderer_create(&execution, &inner.renderer));
+        execution.progress = draw_inner;
+        execution.user = &inner;
+        CHECK_OK(halflit_renderer_create(&execution, &renderer));
+        signal(SIGINT, count_interrupt);
+        code = halflit_render(renderer, cube.scene, cube.lighting, &cube.camera, &cube.settings, &target, NULL);
+        CHECK(code == HALFLIT_ERROR_CANCELLED);
+        CHECK(inner.code == (inner.is_stopped ? HALFLIT_ERROR_CANCELLED : 0));
+        CHECK(inner.is_stopped ? interrupts >= 100 && interrupts % 100 == 0 : interrupts == 1);
+        CHECK(signal(SIGINT, SIG_DFL) == (inner.is_stopped ? other_handler : count_interrupt));
+        halflit_renderer_destroy(renderer);
+        halflit_renderer_destroy(inner.renderer);
+    }
+    free_cube(&inner.cube);
     free_cube(&cube);
 }
 
@@ -1600,6 +1675,7 @@ int main(void) {
     test_numbers_that_are_none();
     test_execution();
     test_interrupt();
+    test_interrupt_of_overlapping_frames();
     printf("%d checks, %d failed\n", checks, failures);
     return failures == 0 && checks > 100 ? 0 : 1;
 }

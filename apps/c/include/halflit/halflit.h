@@ -685,7 +685,8 @@ typedef struct halflit_execution {
     double time_limit_s;  ///< wall clock for a frame, seconds; 0: no limit. Beyond it the frame fails with HALFLIT_ERROR_LIMIT
     size_t memory_limit;  ///< working memory for a frame, bytes; 0: no limit. Beyond it the frame fails with HALFLIT_ERROR_LIMIT
     /// SIGINT, as Ctrl-C sends it, stops the frame with HALFLIT_ERROR_CANCELLED, after the process's own handler has run (0). During the
-    /// frame the library's handler is in place and calls that one. A process without a handler goes on.
+    /// frame the library's handler is in place and calls that one. A process without a handler goes on, and
+    /// one that ignores the signal does not stop the frame.
     int32_t stop_at_interrupt;
     int32_t reserved;
 } halflit_execution;
