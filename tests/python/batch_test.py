@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 import halflit
-from support import CORNERS, FACES
+from support import CORNERS, FACES, moved
 
 VIEWS = [(30 * i, 10 + i) for i in range(6)]
 
@@ -100,6 +100,71 @@ class Meshes(unittest.TestCase):
             scene.add_mesh(**mesh, material={"unlit": True})
             self.assertEqual(picture.pixel_hash, scene.render(32).pixel_hash)
             self.assertEqual(set(np.unique(picture.aovs["id"])), {0, 1})
+
+    def test_open_meshes_points_and_lines_are_those_of_each_too(self):
+        # Next to each other: closed meshes, single sides that face away, points of another size and lines.
+        random, given = np.random.default_rng(5), []
+        quad = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32)
+        for i in range(24):
+            turned = np.linalg.qr(random.normal(size=(3, 3)))[0].astype(np.float32)
+            kinds = ({"vertices": quad @ turned, "faces": [[0, 1, 2], [0, 2, 3]]},
+                     {"vertices": random.normal(size=(4 ** (1 + i % 5), 3)), "topology": "points"},
+                     {"vertices": CORNERS @ turned * (1 + i), "faces": FACES, "normals": CORNERS @ turned},
+                     {"vertices": quad @ turned, "topology": "lines", "matrix": moved(i, 2)},
+                     {"vertices": CORNERS * np.float32(0.1) ** i, "faces": FACES})  # fmt: skip
+            given.append(kinds[i % 5])
+        for material in (None, {"base_color": (0.8, 0.2, 0.1), "double_sided": False}):
+            expected = []
+            for mesh in given:
+                scene = halflit.Scene()
+                scene.add_mesh(**mesh, material=material)
+                expected.append(halflit.render(scene, 40, aovs=["material"]))
+            for threads in (1, 2, 1):
+                drawn = list(halflit.render_meshes(given, 40, threads=threads, material=material, aovs=["material"]))
+                self.assertEqual([picture.pixel_hash for picture in drawn], [picture.pixel_hash for picture in expected])
+                for one, other in zip(drawn, expected):
+                    self.assertTrue(np.array_equal(one.aovs["material"], other.aovs["material"]))
+                    self.assertTrue(np.array_equal(one.camera.matrix, other.camera.matrix))
+        with self.assertRaisesRegex(TypeError, "no 'place' of its own"):
+            list(halflit.render_meshes([{**given[0], "place": False}], 8))
+
+    def test_ctrl_c_ends_the_pictures_of_meshes(self):
+        options = {"samples": 16, "threads": 2}
+        alone = time.perf_counter()
+        for _ in halflit.render_meshes(meshes(2), (3000, 3000), **options):
+            pass
+        alone, sent, before = time.perf_counter() - alone, [], signal.getsignal(signal.SIGINT)
+
+        def interrupt():
+            sent.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        timer = threading.Timer(0.3 * alone, interrupt)
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            list(halflit.render_meshes(meshes(100), (3000, 3000), **options))
+        took = time.perf_counter() - sent[0]
+        timer.join()
+        print(f"Ctrl-C took effect after {1000 * took:.1f} ms, two meshes take {1000 * alone:.0f} ms")
+        self.assertLess(took, 0.5 * alone)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+
+    def test_ctrl_c_does_not_end_meshes_that_another_thread_waits_for(self):
+        given = meshes(6)
+        expected, drawn, begun = [picture.pixel_hash for picture in halflit.render_meshes(given, 400)], [], threading.Event()
+
+        def draw():
+            for picture in halflit.render_meshes(given, 400, threads=2, progress=lambda share: begun.set()):
+                drawn.append(picture.pixel_hash)
+
+        thread = threading.Thread(target=draw)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            begun.wait(60)
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(1)
+        thread.join()
+        self.assertEqual(drawn, expected)
 
     def test_meshes_are_read_as_pictures_are_asked_for(self):
         read = []

@@ -1,7 +1,11 @@
 """A picture is a numpy array that keeps what is known about it."""
 import copy
 import multiprocessing
+import os
+import pathlib
 import pickle
+import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -12,6 +16,48 @@ import halflit
 def drawn(size=(40, 30)):
     scene = halflit.Scene.demo()
     return scene.render(size, aovs=["depth", "id"], premultiplied=True, background="transparent", samples=8, shadow_fade=2.0)
+
+
+class Saved(unittest.TestCase):
+    def test_names_may_be_bytes(self):
+        picture = drawn()
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "bild \u00e4.dat")
+            for name in (path, os.fsencode(path), pathlib.Path(path)):
+                picture.save(name, format="png")
+                with open(path, "rb") as file:
+                    self.assertEqual(file.read(), picture.to_png())
+                os.unlink(path)
+            self.assertEqual(os.listdir(folder), [])
+        with self.assertRaisesRegex(halflit.UsageError, "path: expected a text or a path"):
+            picture.save(3, format="png")
+
+    def test_a_file_is_whole_whoever_writes_it_and_nothing_else_is_left(self):
+        pictures = [np.full((64, 64, 4), shade, np.uint8).view(halflit.Picture) for shade in (10, 200)]
+        whole = {picture.encode("bmp") for picture in pictures}
+        with tempfile.TemporaryDirectory() as folder:
+            path, wrong = os.path.join(folder, "picture"), []
+
+            def write(picture):
+                try:
+                    for _ in range(100):
+                        picture.save(path, format="bmp")
+                        with open(path, "rb") as file:
+                            if file.read() not in whole:
+                                wrong.append("torn")
+                except OSError as error:
+                    wrong.append(error)
+
+            threads = [threading.Thread(target=write, args=(picture,)) for picture in pictures]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(wrong, [])
+            os.mkdir(os.path.join(folder, "taken"))
+            with self.assertRaises(OSError):
+                pictures[0].save(os.path.join(folder, "taken"), format="png")  # a folder is not replaced
+            self.assertEqual(sorted(os.listdir(folder)), ["picture", "taken"])
 
 
 class Kept(unittest.TestCase):

@@ -17,6 +17,7 @@ import ray_cast
 import stand_ins
 from halflit import _c
 from halflit.compat.pyrender import GLTF, RenderFlags
+from halflit.compat.pyrender._looks import light_of
 
 APPS = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "apps", "python")
 SIZE = 32
@@ -383,6 +384,12 @@ class Uploads(unittest.TestCase):
             name for name in names if name == "choose_picture"
         ]
 
+    def test_shares_of_the_picture_are_light_to_the_power_of_11_fifths(self):
+        shares = np.concatenate([np.arange(256) / 255, np.float32(0.7) ** np.arange(60, dtype=np.float32)])
+        light = light_of(shares)
+        self.assertEqual((light[0], light[255]), (0, 1))
+        self.assertLess(np.abs(light[1:] ** 5 / shares[1:] ** 11 - 1).max(), 1e-12)
+
     def test_a_scene_that_does_not_change_is_not_uploaded_again(self):
         self.assertEqual(self.calls(), [])
         self.robot.set_pose(self.camera, moved(0.1, 0, 3))
@@ -405,6 +412,11 @@ class Uploads(unittest.TestCase):
         self.assertIn("set_material", self.calls())
         primitive.positions = primitive.positions * np.float32(1.2)
         self.assertEqual(self.calls().count("set_mesh"), 1)
+        primitive.material = pyrender.SpecularGlossinessMaterial()
+        self.calls()
+        for name in ("diffuseFactor", "specularFactor", "emissiveFactor"):
+            getattr(primitive.material, name)[1] = 0.25
+            self.assertIn("set_material", self.calls(), name)
         self.assertEqual(self.calls(), [])
 
     def test_nodes_come_and_go(self):

@@ -104,6 +104,27 @@ class Arrays(unittest.TestCase):
             picture = render(scene, point_size=5, line_width=3)
             self.assertGreater(picture.report["pixels_visible"], 10, topology)
 
+    def test_points_and_lines_without_a_material_have_their_own_colours(self):
+        # As those of files: no side of them faces a light. What has normals is lit.
+        colors = np.full((8, 3), (200, 100, 50), np.uint8)
+        options = {"point_size": 9, "line_width": 9, "tone_curve": "none", "samples": 1}
+        for topology, faces in (("points", np.arange(8)), ("lines", [[0, 7], [1, 6]])):
+            given = {"vertices": CORNERS, "faces": faces, "topology": topology, "colors": colors}
+            added, replaced, lit = halflit.Scene(), halflit.Scene(), halflit.Scene()
+            added.add_mesh(**given)
+            replaced.add_mesh(CORNERS, FACES)
+            replaced.set_mesh(0, **given)
+            lit.add_mesh(**given, normals=CORNERS)
+            picture = render(added, **options)
+            shown = {tuple(color) for color in picture[picture.any(axis=2)].tolist()} - {tuple(picture[0, 0].tolist())}
+            self.assertEqual(shown, {(200, 100, 50, 255)}, topology)
+            self.assertEqual(render(replaced, **options).pixel_hash, picture.pixel_hash)
+            self.assertNotEqual(render(lit, **options).pixel_hash, picture.pixel_hash)
+            replaced.set_mesh(0, CORNERS, FACES)
+            added = halflit.Scene()
+            added.add_mesh(CORNERS, FACES)
+            self.assertEqual(render(replaced, **options).pixel_hash, render(added, **options).pixel_hash)
+
     def test_what_is_wrong_is_refused(self):
         scene = halflit.Scene()
         for arguments, words in (

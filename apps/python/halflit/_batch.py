@@ -9,13 +9,15 @@ from typing import Any, Deque, Dict, Iterable, Iterator, List, Tuple, TypeVar
 
 import numpy as np
 
-from ._errors import UsageError
-from ._execution import draws_for_main
+from ._errors import CancelledError, UsageError
+from ._execution import begins_helper
 from ._frame import draw_setup, frames, view_of
-from ._options import KNOWN, VIEW, check_names
+from ._geometry import plain_material
+from ._mesh import is_unlit
+from ._options import KNOWN, check_names
 from ._picture import Picture
 from ._scene import Scene
-from ._setup import Setup, checked_size, choose
+from ._setup import checked_size, choose
 from ._target import names_of
 from ._types import Array
 from ._values import shown, whole
@@ -26,7 +28,7 @@ T = TypeVar("T")
 def drawn_ahead(pictures: Iterator[T], count: int) -> Iterator[T]:
     """The same pictures; up to `count` are drawn in a thread while the caller uses the last one."""
     nothing = object()
-    pool = ThreadPoolExecutor(1, "halflit", draws_for_main)
+    pool = ThreadPoolExecutor(1, "halflit", begins_helper())
     waiting: Deque[Future[Any]] = deque()
     try:
         while True:
@@ -64,31 +66,34 @@ def draw_arrays(scene: Scene, cameras: List[Any], size: Any, light: str, options
 
 
 class _MeshDrawer:
-    """A scene that has one mesh after another, by the light and exposure of the first: nothing but the mesh is prepared anew."""
-
-    #: Keywords that Scene.frame() knows.
-    QUICK = ("azimuth", "elevation", "zoom")
+    """A scene that has one mesh after another. Each is set up as render() does, so that no picture depends on the mesh before. The renderer
+    keeps what does not depend on the mesh."""
 
     def __init__(self, size: Tuple[int, int], material: Any, options: Dict[str, Any]) -> None:
         self.scene, self.size, self.material, self.options = Scene(), size, material, options
-        self.is_quick = all(name in self.QUICK for name in VIEW if options.get(name) is not None and name not in ("exposure", "ev"))
-        self.view = {name: options[name] for name in self.QUICK if options.get(name) is not None}
-        self.first: Any = None  # the Setup of the first mesh
+        self.plain: Any = None  # whether the last mesh had the plain material, lit (False) or unlit
+        self.is_placed = False  # by a matrix of its own
 
     def draw(self, mesh: Any) -> Picture:
         arrays: Dict[str, Any] = dict(mesh) if isinstance(mesh, dict) else dict(zip(("vertices", "faces"), mesh))
+        matrix = arrays.pop("matrix", None)
+        for name in ("material", "place"):
+            if name in arrays:
+                raise TypeError(f"render_meshes(): a mesh has no {name!r} of its own")
         scene = self.scene
-        if self.first is None:
-            scene.add_mesh(**arrays, material=self.material)
-            self.first = choose(scene, self.size, self.options)
-            return draw_setup(scene, self.first, self.options)
-        scene.set_mesh(0, **arrays)
-        if self.is_quick:
-            camera = scene.frame(self.size[0] / self.size[1], **self.view)
+        is_first = not scene.counts["instances"]
+        material, plain = (self.material if is_first else None), None
+        if self.material is None:
+            plain = is_unlit(arrays.get("topology", "triangles"), arrays.get("normals"))
+            material = None if plain == self.plain else plain_material(plain)
+        if is_first:
+            scene.add_mesh(**arrays, material=material, matrix=matrix)
         else:
-            camera = choose(scene, self.size, self.options).camera
-        setup: Setup = self.first._seen_by(camera)
-        return draw_setup(scene, setup, self.options)
+            scene.set_mesh(0, **arrays, material=material)
+            if matrix is not None or self.is_placed:
+                scene.set_instance(0, np.eye(4) if matrix is None else matrix)
+        self.plain, self.is_placed = plain, matrix is not None
+        return draw_setup(scene, choose(scene, self.size, self.options), self.options)
 
 
 def draw_meshes(meshes: Iterable[Any], size: Any, material: Any, options: Dict[str, Any]) -> Iterator[Picture]:
@@ -101,15 +106,21 @@ def draw_meshes(meshes: Iterable[Any], size: Any, material: Any, options: Dict[s
 
 
 def _drawn_meshes(meshes: Iterable[Any], size: Any, threads: int, material: Any, options: Dict[str, Any]) -> Iterator[Picture]:
-    own = threading.local()
+    own, stopped = threading.local(), threading.Event()
 
     def draw(mesh: Any) -> Picture:
+        if stopped.is_set():
+            raise CancelledError("a picture before was stopped")
         if not hasattr(own, "drawer"):
             own.drawer = _MeshDrawer(size, material, options)
-        picture: Picture = own.drawer.draw(mesh)
+        try:
+            picture: Picture = own.drawer.draw(mesh)
+        except CancelledError:  # by Ctrl-C, whose exception the main thread may not have seen yet
+            stopped.set()
+            raise
         return picture
 
-    pool = ThreadPoolExecutor(threads, "halflit", draws_for_main)
+    pool = ThreadPoolExecutor(threads, "halflit", begins_helper())
     waiting: Deque[Future[Picture]] = deque()
     try:
         for mesh in meshes:

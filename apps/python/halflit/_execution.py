@@ -7,7 +7,7 @@ import os
 import signal
 import threading
 from _weakrefset import WeakSet  # weakref takes a tenth of halflit's own import
-from typing import Any, Dict, Iterator
+from typing import Any, Callable, Dict, Iterator, Optional
 
 from . import _c
 from ._errors import CancelledError, UsageError
@@ -16,9 +16,18 @@ from ._options import EXECUTION
 _CALLING = threading.local()  # lock: of the scene whose frame runs a callback in this thread
 
 
-def draws_for_main() -> None:
-    """Called in a thread whose frames the main thread waits for: Ctrl-C ends them too."""
+def _is_for_main() -> bool:
+    """The main thread draws, or waits for the frames of this thread."""
+    return threading.current_thread() is threading.main_thread() or getattr(_CALLING, "is_for_main", False)
+
+
+def _draws_for_main() -> None:
     _CALLING.is_for_main = True
+
+
+def begins_helper() -> Optional[Callable[[], None]]:
+    """What a thread has to call first whose frames this thread waits for: if this is the main thread, Ctrl-C ends them too."""
+    return _draws_for_main if _is_for_main() else None
 
 
 class SceneLock:
@@ -107,8 +116,7 @@ class Execution:
         self.raised: BaseException | None = None
         # With Python's own handler, Ctrl-C ends the frame: the handler runs as soon as the library returns.
         self.in_main = threading.current_thread() is threading.main_thread()
-        is_for_main = self.in_main or getattr(_CALLING, "is_for_main", False)
-        self.interrupts = is_for_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        self.interrupts = _is_for_main() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
         struct.stop_at_interrupt = self.interrupts
         self.key = (self.interrupts, *(options.get(name) for name in EXECUTION))
         for name, member in (("threads", "threads"), ("tile_size", "tile_size"), ("time_limit", "time_limit_s"), ("memory_limit",) * 2):

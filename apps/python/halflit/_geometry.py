@@ -32,6 +32,11 @@ class MeshIndex(int):
         return made
 
 
+def plain_material(is_unlit: bool) -> Material:
+    """The material of a mesh that is given none, as that of models without materials. is_unlit: see _mesh.py."""
+    return Material(roughness=0.6, double_sided=True, unlit=is_unlit)
+
+
 class Geometry(SceneBase):
     """The methods of a Scene about what reflects light."""
 
@@ -114,7 +119,8 @@ class Geometry(SceneBase):
         uv, uv1: (n, 2), v = 0 is the first row of a texture. tangents: (n, 4), direction and +1 or -1.
         colors: (n, 3) or (n, 4), uint8 sRGB codes, or linear floats, where 1 is white; above 16 they are taken for codes and refused.
         colors_space: "srgb": floats, too, are sRGB values, 0 to 1; "linear": uint8, too, are linear.
-        material: index, Material, or a dict of its members; None: white, roughness 0.6, seen from both sides.
+        material: index, Material, or a dict of its members; None: white, roughness 0.6, seen from both sides. Lines and points without
+        normals have no side that light falls on: None is unlit for them, as in glTF.
         topology: "triangles", "lines" (faces: (m, 2)) or "points" (faces: (m,)).
         """
         from ._mesh import MeshArrays
@@ -125,7 +131,7 @@ class Geometry(SceneBase):
             at = self._placement(matrix)
             index = ctypes.c_int32()
             own = isinstance(material, (Material, dict))
-            used = self._plain_material() if material is None else self._material_index(material)
+            used = self._plain_material(arrays.is_unlit) if material is None else self._material_index(material)
             self._change("scene_add_mesh", ctypes.byref(arrays.struct(used)), ctypes.byref(index))
             self._remember(index.value, arrays, used, own)
             return MeshIndex(index.value, self._add_instance(index.value, at) if place else None)
@@ -133,7 +139,8 @@ class Geometry(SceneBase):
     def set_mesh(self, index: int, vertices: Any, faces: Any = None, *, normals: Any = None, uv: Any = None, uv1: Any = None,
                  colors: Any = None, colors_space: Optional[str] = None, tangents: Any = None,
                  material: MaterialOf = None, topology: str = "triangles", name: Optional[str] = None) -> None:  # fmt: skip
-        """Replaces a mesh in all its instances; arguments as in add_mesh(), but material None: the mesh keeps its material.
+        """Replaces a mesh in all its instances; arguments as in add_mesh(), but material None: the mesh keeps its material, unless
+        it was given none.
 
         A Material or a dict replaces the material that was made for this mesh alone, if it has such a one.
         """
@@ -150,7 +157,7 @@ class Geometry(SceneBase):
                 used = self._own_materials[index]
                 self.set_material(used, material)
             else:
-                used = self._materials[index] if material is None else self._material_index(material)
+                used = self._kept_material(index, arrays.is_unlit) if material is None else self._material_index(material)
             self._change("scene_set_mesh", index, ctypes.byref(arrays.struct(used)))
             self._remember(index, arrays, used, own or (material is None and index in self._own_materials))
 
@@ -170,11 +177,15 @@ class Geometry(SceneBase):
         if not 0 <= whole(index, "mesh", -(2**31), 2**31 - 1) < self.counts["meshes"]:
             raise UsageError(f"mesh {index}, but the scene has {self.counts['meshes']}")
 
-    def _plain_material(self) -> int:
-        """The material of meshes that are given none, as that of models without materials."""
-        if self._plain is None:
-            self._plain = self.add_material(roughness=0.6, double_sided=True)
-        return self._plain
+    def _plain_material(self, is_unlit: bool) -> int:
+        """The material of meshes that are given none."""
+        if is_unlit not in self._plain:
+            self._plain[is_unlit] = self.add_material(plain_material(is_unlit))
+        return self._plain[is_unlit]
+
+    def _kept_material(self, mesh: int, is_unlit: bool) -> int:
+        used = self._materials[mesh]
+        return self._plain_material(is_unlit) if used in self._plain.values() else used
 
     def set_vertices(self, mesh: int, vertices: Any, normals: Any = None) -> None:
         """Moves the vertices of a mesh that was added: (n, 3), n as before.

@@ -13,6 +13,12 @@ from ._types import Array
 CORNERS = {"triangles": 3, "lines": 2, "points": 1}
 
 
+def is_unlit(topology: Any, normals: Any) -> bool:
+    """Whether a mesh without a material is drawn without light, as those of files are: lines and points without normals have no side that
+    light falls on."""
+    return topology != "triangles" and normals is None
+
+
 class MeshArrays:
     """What add_mesh() and set_mesh() are given. Everything is checked here, so that a mesh that is refused leaves nothing in the scene."""
 
@@ -36,6 +42,7 @@ class MeshArrays:
         named = (("normals", "normals", normals, 3), ("uv0", "uv", attributes["uv"], 2), ("uv1", "uv1", attributes["uv1"], 2))
         for member, argument, value, columns in (*named, ("tangents", "tangents", attributes["tangents"], 4)):
             self.arrays[member] = None if value is None else _arrays.finite(value, columns, argument, self.count)
+        self.is_unlit = is_unlit(topology, normals)
         colors = attributes["colors"]
         if colors is None and attributes["colors_space"] is not None:
             raise UsageError("colors_space: has no effect without colors")

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import ctypes
 import html
 import math
@@ -110,10 +111,7 @@ class Picture(_Base):
             if write is not None:
                 write(encoded)
                 return
-            part = f"{os.fspath(named)}.{os.getpid()}.part"
-            with open(part, "wb") as file:
-                file.write(encoded)
-            os.replace(part, named)
+            replace_file(os.fsdecode(_c.bytes_of(path, "path") or b""), encoded)
             return
         text = _c.bytes_of(path, "path")
         pixels, target = self._target(os.path.splitext(os.fsdecode(text or b""))[1].lower(), os.fsdecode(named))
@@ -187,6 +185,19 @@ class Picture(_Base):
             return self.to_png()
         except UsageError:
             return None
+
+
+def replace_file(path: str, data: bytes) -> None:
+    """Writes a file that is old or new, never half written. Each call has a temporary file of its own."""
+    part = f"{path}.{os.urandom(8).hex()}.part"
+    try:
+        with open(part, "xb") as file:
+            file.write(data)
+        os.replace(part, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(part)
+        raise
 
 
 def codes_of(pixels: Array) -> Array:

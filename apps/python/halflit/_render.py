@@ -74,11 +74,11 @@ def render_meshes(
 ) -> Iterator[pictures.Picture]:
     """Draws many small meshes, each alone in its picture: an iterator of the pictures of render((vertices, faces), size), in order.
 
-    meshes: each (vertices, faces), or a dict of arguments of Scene.add_mesh() such as {"vertices": v, "faces": f, "colors": c}; they are
-    read as pictures are asked for, some ahead. material: of all meshes. threads: that draw, each one a picture; 0: one for each core.
+    meshes: each (vertices, faces), or a dict of arguments of Scene.add_mesh() such as {"vertices": v, "faces": f, "colors": c}, but for
+    material and place; they are read as pictures are asked for, some ahead. material: of all meshes. threads: that draw, each one a picture; 0: one for each core.
     The other keywords are those of Scene.render() but for camera, setup and out.
 
-    Light, environment and shadow maps are kept from mesh to mesh, which render() would make anew for each.
+    Each is set up as by render(); what does not depend on the mesh, such as the renderer and the light of an environment, is kept.
     """
     from ._batch import draw_meshes
 

@@ -28,7 +28,7 @@ class SceneBase:
         self._own_lights = False  # add_light() was called
         self._told: Set[Any] = set()  # warnings that were shown
         self._warnings: Optional[List[str]] = None  # of loading
-        self._plain: Optional[int] = None  # material of meshes that are given none
+        self._plain: Dict[bool, int] = {}  # materials of meshes that are given none, lit and unlit
         self._materials: Dict[int, int] = {}  # mesh that was added -> its material
         self._smooth: Set[Any] = set()  # meshes with normals="smooth"
         self._own_materials: Dict[int, int] = {}  # mesh -> material that was made for it alone

@@ -20,6 +20,35 @@ class Checked:
         object.__setattr__(self, name, value if check is None else check(value))
         object.__setattr__(self, "_version", self._version + 1)
 
+    def _set(self, arguments: Dict[str, Any]) -> None:
+        """Sets all checked attributes. arguments: of __init__(), by name."""
+        for name in self._checks:
+            setattr(self, name, arguments[name])
+
+
+class Boxed:
+    """What the box around a thing tells."""
+
+    @property
+    def bounds(self) -> Array:
+        """Box, (2, 3)."""
+        raise NotImplementedError
+
+    @property
+    def centroid(self) -> Array:
+        """Middle of the bounds."""
+        return np.asarray(self.bounds.mean(axis=0))
+
+    @property
+    def extents(self) -> Array:
+        """Sides of the bounds."""
+        return np.asarray(self.bounds[1] - self.bounds[0])
+
+    @property
+    def scale(self) -> float:
+        """Diagonal of the bounds."""
+        return float(np.linalg.norm(self.extents))
+
 
 def text(value: Any) -> Optional[str]:
     """A name."""
@@ -102,8 +131,3 @@ def colors(value: Any, count: int) -> Array:
     if len(array) != count:
         raise ValueError(f"{len(array)} colours, expected one for each of {count} vertices")
     return np.ascontiguousarray(array)
-
-
-def extents(bounds: Array) -> Array:
-    """Sides of a box (2, 3)."""
-    return np.asarray(bounds[1] - bounds[0])

@@ -187,13 +187,11 @@ class World:
 def _key_of(primitive: Primitive) -> Any:
     """Equal keys: nothing has to be uploaded again. Materials are compared by their values, which scripts change in place."""
     material = primitive.material
-    base = getattr(material, material._base, None)
     textures = [getattr(material, name) for name in material._textures]
     return (
         primitive._version,
         material,
         material._version,
-        b"" if base is None else base.tobytes(),
-        material.emissiveFactor.tobytes(),
+        [value.tobytes() for value in vars(material).values() if isinstance(value, np.ndarray)],
         [(texture._version, texture.sampler._version) for texture in textures if texture is not None],
     )

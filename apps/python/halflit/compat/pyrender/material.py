@@ -69,9 +69,7 @@ class Material(Checked):
         smooth: bool = True,
         wireframe: bool = False,
     ) -> None:
-        given = dict(locals())
-        for member in Material._checks:
-            setattr(self, member, given[member])
+        self._set(locals())
 
     @property
     def textures(self) -> Set[Texture]:
@@ -125,9 +123,7 @@ class MetallicRoughnessMaterial(Material):
         roughnessFactor: Optional[float] = 1.0,  # noqa: N803
         metallicRoughnessTexture: Any = None,  # noqa: N803
     ) -> None:
-        given = dict(locals())
-        for member in MetallicRoughnessMaterial._checks:
-            setattr(self, member, given[member])
+        self._set(locals())
 
 
 class SpecularGlossinessMaterial(Material):
@@ -168,6 +164,4 @@ class SpecularGlossinessMaterial(Material):
         glossinessFactor: float = 1.0,  # noqa: N803
         specularGlossinessTexture: Any = None,  # noqa: N803
     ) -> None:
-        given = dict(locals())
-        for member in SpecularGlossinessMaterial._checks:
-            setattr(self, member, given[member])
+        self._set(locals())

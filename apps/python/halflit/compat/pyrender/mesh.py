@@ -5,13 +5,13 @@ from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._values import Array, Checked, extents, text
+from ._values import Array, Boxed, Checked, text
 from .constants import GLTF
 from .material import Material, MetallicRoughnessMaterial
 from .primitive import Primitive
 
 
-class Mesh(Checked):
+class Mesh(Checked, Boxed):
     """Primitives that a node places together. is_visible: False: it is not drawn. weights is kept and not used."""
 
     _checks = {"name": text}
@@ -27,21 +27,6 @@ class Mesh(Checked):
         """Box, (2, 3), of the primitives."""
         boxes = np.array([primitive.bounds for primitive in self.primitives])
         return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
-
-    @property
-    def centroid(self) -> Array:
-        """Middle of the bounds."""
-        return np.asarray(self.bounds.mean(axis=0))
-
-    @property
-    def extents(self) -> Array:
-        """Sides of the bounds."""
-        return extents(self.bounds)
-
-    @property
-    def scale(self) -> float:
-        """Diagonal of the bounds."""
-        return float(np.linalg.norm(self.extents))
 
     @property
     def is_transparent(self) -> bool:

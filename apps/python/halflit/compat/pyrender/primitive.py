@@ -5,12 +5,12 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._values import Array, Checked, colors, extents
+from ._values import Array, Boxed, Checked, colors
 from .constants import GLTF
 from .material import Material, MetallicRoughnessMaterial
 
 
-class Primitive(Checked):
+class Primitive(Checked, Boxed):
     """Vertices, and what is drawn of them.
 
     positions: (n, 3). normals: (n, 3). tangents: (n, 4). texcoord_0, texcoord_1: (n, 2), v = 0 is the last row of a picture.
@@ -108,21 +108,6 @@ class Primitive(Checked):
             box = moved(box, self.poses)
         object.__setattr__(self, "_box", box)
         return box
-
-    @property
-    def centroid(self) -> Array:
-        """Middle of the bounds."""
-        return np.asarray(self.bounds.mean(axis=0))
-
-    @property
-    def extents(self) -> Array:
-        """Sides of the bounds."""
-        return extents(self.bounds)
-
-    @property
-    def scale(self) -> float:
-        """Diagonal of the bounds."""
-        return float(np.linalg.norm(self.extents))
 
     @property
     def is_transparent(self) -> bool:

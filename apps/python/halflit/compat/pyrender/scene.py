@@ -5,7 +5,7 @@ from typing import Any, Dict, Iterable, List, Optional, Set, Union
 
 import numpy as np
 
-from ._values import Array, color, extents, text
+from ._values import Array, Boxed, color, text
 from .camera import Camera
 from .light import DirectionalLight, Light, PointLight, SpotLight
 from .mesh import Mesh
@@ -15,7 +15,7 @@ from .primitive import moved
 Thing = Union[Mesh, Light, Camera]
 
 
-class Scene:
+class Scene(Boxed):
     """A tree of nodes. bg_color: (4,) or (3,), shares of 255 as they appear in the picture (white). ambient_light: (3,), linear light from
     all around (none)."""
 
@@ -138,21 +138,6 @@ class Scene:
         if not boxes:
             return np.zeros((2, 3))
         return np.array([np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)])
-
-    @property
-    def centroid(self) -> Array:
-        """Middle of the bounds."""
-        return np.asarray(self.bounds.mean(axis=0))
-
-    @property
-    def extents(self) -> Array:
-        """Sides of the bounds."""
-        return extents(self.bounds)
-
-    @property
-    def scale(self) -> float:
-        """Diagonal of the bounds."""
-        return float(np.linalg.norm(self.extents))
 
     # ---- changes --------------------------------------------------------------------------------------------------------
 
