@@ -1,7 +1,8 @@
 // Makes the folder of the npm package: node pack.mjs SOURCE_FOLDER BIN_FOLDER LIBRARIES_FOLDER OUTPUT_FOLDER
-import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { licences } from "../web/licences.mjs";
 
 const [source, bin, libraries, output] = process.argv.slice(2);
 const text = (...parts) => readFileSync(join(...parts), "utf8");
@@ -63,12 +64,4 @@ ${options.join("\n")}
 const description = JSON.parse(text(output, "package.json"));
 description.version = table.version;
 writeFileSync(join(output, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
-for (const folder of readdirSync(libraries)) {
-  const licence = join(libraries, folder, "debian/copyright");
-  if (existsSync(licence)) cpSync(licence, join(output, "licences", `${folder.replace(/-[0-9].*/, "")}.txt`));
-}
-for (const name of ["libfmt-dev", "libxsimd-dev", "libexpected-dev", "libstb-dev", "nlohmann-json3-dev", "emscripten"]) {
-  const licence = `/usr/share/doc/${name}/copyright`;
-  if (existsSync(licence)) cpSync(licence, join(output, "licences", `${name.replace(/^lib|[0-9]*-dev$/g, "")}.txt`));
-  else console.error(`pack: no licence of ${name} was found`);
-}
+for (const [name, terms] of Object.entries(licences(libraries))) writeFileSync(join(output, "licences", `${name}.txt`), terms);

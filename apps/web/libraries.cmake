@@ -59,13 +59,14 @@ foreach(name utils crc32 adler32 deflate_decompress deflate_compress zlib_compre
 endforeach()
 halflit_web_library(deflate FOLDERS ${deflate} SOURCES ${sources})
 
-# A parser's hash is salted with a random number; that of one program for one user may be the time.
+# A parser's hash is salted with a random number, which random_bytes.cpp gets from the host.
 halflit_web_source(expat expat unused)
 file(CONFIGURE OUTPUT ${made}/expat/expat_config.h @ONLY CONTENT
 "#define XML_NS 1
 #define XML_DTD 1
 #define XML_CONTEXT_BYTES 1024
-#define XML_POOR_ENTROPY 1
+#define HAVE_ARC4RANDOM_BUF 1
+void arc4random_buf(void*, __SIZE_TYPE__);
 ")
 set(sources "")
 foreach(name xmlparse xmlrole xmltok)

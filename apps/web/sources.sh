@@ -13,7 +13,8 @@ done
 
 mkdir -p "$folder"
 folder=$(realpath "$folder")
-work=$folder/apt
+work=$(mktemp -d "$folder/.sources.XXXXXX")  # here, so that an unpacked source is moved in one step
+trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/parts" "$work/lists/partial" "$work/cache"
 for list in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
     [ ! -f "$list" ] || sed -n 's/^deb /deb-src /p' "$list" >"$work/parts/$(basename "$list" .list).list"
@@ -27,11 +28,12 @@ apt() {
 }
 apt update || true  # an archive without sources is no harm
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-stable}")
-cd "$folder"
+mkdir "$work/unpacked"
+cd "$work/unpacked"
 for package in "${missing[@]}"; do
     # A mirror may lack the newest security update; then the release's own version.
     apt --download-only source "$package" 2>/dev/null || apt --download-only source "$package/$codename"
     description=$(ls -t "$package"_*.dsc | head -n 1)
     dpkg-source --no-check -x "$description" >/dev/null
+    mv "$package"-[0-9]*/ "$folder"
 done
-rm -f ./*.tar.* ./*.dsc ./*.asc

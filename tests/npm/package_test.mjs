@@ -12,6 +12,11 @@ check("the tarball has at most 1.5 MB", bytes <= kMostBytes, bytes);
 const licences = readdirSync(join(installed, "licences")).map((name) => name.replace(".txt", ""));
 for (const name of ["draco", "expat", "libdeflate", "libjpeg-turbo", "libwebp", "meshoptimizer", "fmt", "xsimd", "expected", "stb", "nlohmann-json", "emscripten"])
   check(`it has the licence of ${name}`, licences.includes(name));
+const terms = (name) => readFileSync(join(installed, "licences", `${name}.txt`), "utf8");
+for (const [name, words] of [["draco", "Apache License"], ["draco", "END OF TERMS AND CONDITIONS"], ["libjpeg-turbo", "copyright (C) 1991-2020, Thomas G. Lane"],
+  ["libwebp", "Additional IP Rights Grant"], ["expected", "Creative Commons Legal Code"], ["emscripten", "END OF TERMS AND CONDITIONS"]])
+  check(`its licence of ${name} has "${words}"`, terms(name).includes(words));
+check("its README names the Independent JPEG Group", readFileSync(join(installed, "README.md"), "utf8").includes("based in part on the work of the Independent JPEG Group."));
 copyFileSync(join(source, "apps/examples/knot.glb"), join(work, "knot.glb"));
 write_textured_model();
 const knot = readFileSync(join(work, "knot.glb")), textured = readFileSync(join(work, "textured.gltf"));
@@ -29,6 +34,15 @@ for (const format of ["png", "bmp", "tga"]) {
   run(["knot.glb", "--size", "160x120", ...flags, "-o", `of_program.${format}`, "--quiet"]);
   check(`its .${format} is the program's`, command([program, "diff", join(work, `of_program.${format}`), join(work, `of_package.${format}`)]).status === 0);
 }
+const altered = await render("demo", { size: "32x32" });
+for (const [what, pixels] of [["too few", altered.pixels.slice(4)], ["too many", new Uint8ClampedArray(4 * 33 * 32)], ["no", undefined]]) {
+  altered.pixels = pixels;
+  const error = await refused((async () => altered.png())());
+  check(`a picture with ${what} pixels is not encoded`, error instanceof HalflitError && error.code === 2 && /pixels: expected 4096 bytes/.test(error.message), error.message);
+}
+const sent = await render("demo", { size: "32x32" });
+structuredClone(sent.pixels, { transfer: [sent.pixels.buffer] });
+check("nor one whose pixels were sent to another thread", /found 0/.test((await refused((async () => sent.png())())).message));
 check("its .jpg is a JPEG", Buffer.from(by_names.encode("jpg")).subarray(0, 3).toString("hex") === "ffd8ff");
 
 const scenes = await Promise.all(Array.from({ length: 20 }, (_, i) => load(i % 2 ? knot : "demo", { size: "64x48" })));
@@ -42,6 +56,25 @@ const before = await memory();
 for (let i = 0; i < 300; ++i) await render(i % 3 ? knot : "demo", { size: "48x32" });
 check("three hundred scenes leave no memory behind", (await memory()) <= 1.25 * before, `${before} bytes before, ${await memory()} after`);
 
+// ---- environments -------------------------------------------------------------------------------------------------------
+// A .pfm file of one colour.
+function sky(red) {
+  const header = Buffer.from("PF\n512 256\n-1.0\n"), floats = new Float32Array(3 * 512 * 256).map((_, i) => (i % 3 ? 0.25 : red));
+  return Buffer.concat([header, Buffer.from(floats.buffer)]);
+}
+await init({ simd: true });  // a module whose memory has no room from before
+const lit = await load(knot, { size: "32x24" }), skies = Array.from({ length: 16 }, (_, i) => sky(i / 8));
+const of_skies = [];
+let after_four = 0;
+for (const [i, env] of skies.entries()) {
+  of_skies.push((await lit.render({ env })).hash);
+  if (i === 3) after_four = await memory();
+}
+check("sixteen skies take no more memory than four", (await memory()) === after_four, `${after_four} bytes, then ${await memory()}`);
+check("sixteen skies give as many pictures", new Set(of_skies).size === 16);
+check("a sky of before is that of before", (await lit.render({ env: skies[2] })).hash === of_skies[2] && (await lit.render({ env: skies[2] })).hash === of_skies[2]);
+lit.free();
+
 // ---- files beside a model -----------------------------------------------------------------------------------------------
 const size = { width: 120, height: 90 }, names = ["textured.bin", "photo.jpg", "ball.png"];
 const native = native_hash([join(work, "textured.gltf"), "--size", "120x90"]);
@@ -53,6 +86,11 @@ const late = await render(textured, { ...size, files: async (name) => { asked.pu
 check("files by a function", late.hash === native && JSON.stringify(asked.sort()) === JSON.stringify([...names].sort()), asked);
 const without = await render(textured, { ...size, files: (name) => (name === "photo.jpg" ? null : files[name]) });
 check("a texture that is not there is warned of", without.hash !== native && without.report.warnings.some((line) => line.includes("photo.jpg")), without.report.warnings);
+const slowly = await load(textured, { ...size, files: (name) => (name === "photo.jpg" ? null : files[name]) });
+const together = await Promise.all([0, 1, 0].map((i) => slowly.render({ env: skies[i], edges: i ? "feature" : "none" })));
+const apart = await Promise.all([0, 1].map((i) => render(textured, { ...size, files: (name) => (name === "photo.jpg" ? null : files[name]), env: skies[i], edges: i ? "feature" : "none" })));
+check("pictures of a scene at once have their own skies", together.every((picture, i) => picture.hash === apart[i % 2].hash));
+slowly.free();
 const failing = await refused(render(textured, { ...size, files: () => { throw new Error("no disk"); } }));
 check("an error of that function is passed on", failing.message === "no disk");
 
@@ -115,11 +153,18 @@ const first = await ask(knot, "?width=200&height=150&view=iso"), png = new Uint8
 const again = performance.now();
 await ask(knot, "?width=200&height=150&view=iso");
 const warm_ms = performance.now() - again, statuses = [(await ask("no model")).status, (await ask(knot, "?view=sideways")).status, (await worker.fetch(new Request("https://thumbnails.test/"))).status];
-console.log(JSON.stringify({ status: first.status, type: first.headers.get("content-type"), tag: first.headers.get("etag"), png: [...png.slice(1, 4)], statuses, cold_ms, warm_ms, memory_bytes: await memory() }));\n`);
+let read = 0;
+const endless = new ReadableStream({ pull(stream) { read += 1 << 20; stream.enqueue(new Uint8Array(1 << 20)); if (read >= 80 << 20) stream.close(); } });
+const large = (await worker.fetch(new Request("https://thumbnails.test/", { method: "POST", body: endless, duplex: "half" }))).status;
+const announced = new Request("https://thumbnails.test/", { method: "POST", body: knot, headers: { "content-length": String(33 << 20) } });
+const limits = { large, read, announced: (await worker.fetch(announced)).status, untouched: !announced.bodyUsed };
+console.log(JSON.stringify({ status: first.status, type: first.headers.get("content-type"), tag: first.headers.get("etag"), png: [...png.slice(1, 4)], statuses, limits, cold_ms, warm_ms, memory_bytes: await memory() }));\n`);
 const served = told(["node", "--conditions=workerd", "--import", "./wasm.mjs", "served.js"]);
 const thumbnail = native_hash([join(work, "knot.glb"), "--size", "200x150", "--view", "iso", "--samples", "4"]);
 check("the example worker draws", served.status === 200 && served.type === "image/png" && served.tag === `"${thumbnail}"` && String(served.png) === "80,78,71", JSON.stringify(served));
 check("the example worker refuses", String(served.statuses) === "400,400,405", served.statuses);
+check("it reads no more of a body than its limit", served.limits.large === 413 && served.limits.read <= 36 << 20, JSON.stringify(served.limits));
+check("and nothing of one that says it is larger", served.limits.announced === 413 && served.limits.untouched, JSON.stringify(served.limits));
 check("the example worker takes at most 64 MB", served.memory_bytes <= 64 << 20, served.memory_bytes);
 
 // ---- the command line ---------------------------------------------------------------------------------------------------
@@ -133,8 +178,11 @@ check("its picture is the program's", report.pixel_hash === native_hash([join(wo
 writeFileSync(join(project, "secret.jpg"), files["photo.jpg"]);
 writeFileSync(join(project, "models/thief.gltf"), textured.toString().replace("photo.jpg", "../secret.jpg"));
 check("a model reads nothing outside of its folder", /secret\.jpg/.test(cli("models/thief.gltf", "-o", "thief.png", "--size", "32x32").stderr));
-for (const [words, code] of [[["none.glb"], 4], [["demo", "x.png", "--sampels", "3"], 2], [["demo", "x.gif"], 2], [["models/photo.jpg", "x.png"], 3], [["a", "b", "c"], 2]])
-  check(`halflit ${words.join(" ")} ends with ${code}`, cli(...words).status === code, cli(...words).stderr.trim());
+for (const [words, code] of [[["none.glb"], 4], [["no/folder/none.glb", "x.png"], 4], [["demo", "no/folder/x.png", "--size", "16x16"], 4], [["demo", "models", "--size", "16x16"], 2],
+  [["demo", "x.png", "--size", "16x16", "--report", "no/folder/x.json"], 4], [["demo", "x.png", "--env", "no/sky.hdr"], 4], [["demo", "x.png", "--sampels", "3"], 2], [["demo", "x.gif"], 2], [["models/photo.jpg", "x.png"], 3], [["a", "b", "c"], 2]]) {
+  const { status, stderr } = cli(...words);
+  check(`halflit ${words.join(" ")} ends with ${code} and one line`, status === code && /^halflit: error: [^\n]+\n$/.test(stderr), `${status}: ${stderr.trim()}`);
+}
 check("--help lists the flags", /--max-error CODES/.test(cli("--help").stdout));
 
 // ---- types --------------------------------------------------------------------------------------------------------------

@@ -13,6 +13,8 @@ rmSync(work, { recursive: true, force: true });
 mkdirSync(work, { recursive: true });
 const html = readFileSync(page, "utf8"), element = (id) => new RegExp(`id="${id}">([\\s\\S]*?)</script>`).exec(html)[1];
 check("the page has at most 3 MB", html.length <= 3e6, html.length);
+for (const words of ["based in part on the work of the Independent JPEG Group", "Copyright (c) 2026 the halflit authors", "======== emscripten ="])
+  check(`the page has the notice "${words}"`, html.includes(words));
 
 function unpacked(id) {
   const bytes = gunzipSync(Buffer.from(element(id).trim(), "base64"));

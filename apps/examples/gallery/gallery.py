@@ -73,8 +73,9 @@ def lack(kind):
     """Why scripts of this kind cannot run here, or nothing."""
     if kind == "py" and subprocess.run([sys.executable, "-c", "import numpy"], stderr=subprocess.DEVNULL).returncode:
         return "this Python has no numpy"
-    if kind == "mjs" and not (shutil.which("node") and os.environ.get("HALFLIT_NODE_MODULES")):
-        return "no Node.js, or HALFLIT_NODE_MODULES is not set"
+    modules = os.environ.get("HALFLIT_NODE_MODULES")
+    if kind == "mjs" and not (shutil.which("node") and modules and pathlib.Path(modules, "halflit").is_dir()):
+        return "no Node.js, or HALFLIT_NODE_MODULES has no package halflit"
     return ""
 
 

@@ -13,6 +13,7 @@ const kOwn = [
   { names: ["-h", "--help"], form: "", help: "Print this" },
   { names: ["-V", "--version"], form: "", help: "Print the version" },
 ];
+const kFile = 4;  // exit code of a file that cannot be read or written
 const kBuiltIn = /^(demo|sphere:\d+|lights:\d+)$/, kNamedSkies = ["sky", "studio", "none"];
 const usage = (message) => new HalflitError(`${message}; see halflit --help`, 2);
 
@@ -51,17 +52,23 @@ function parsed(line) {
   return { words, own, passed };
 }
 
-function read(path) {
+// What the system refuses is an error of the file.
+function on_file(path, work) {
   try {
-    return readFileSync(path === "-" ? 0 : path);
+    return work();
   } catch (error) {
-    throw new HalflitError(`${path}: ${error.message}`, 4);
+    throw new HalflitError(`${path}: ${error.message}`, kFile);
   }
+}
+const read = (path) => on_file(path, () => readFileSync(path === "-" ? 0 : path));
+function write(path, file) {
+  if (path === "-") process.stdout.write(file);
+  else on_file(path, () => writeFileSync(path, file));
 }
 
 // Files that a model names: below its folder alone, symbolic links too.
 function files_beside(model) {
-  const folder = realpathSync(dirname(resolve(model)));
+  const folder = on_file(model, () => realpathSync(dirname(resolve(model))));
   return (name) => {
     try {
       const place = realpathSync(resolve(folder, name)), inside = relative(folder, place);
@@ -91,20 +98,20 @@ async function main(line) {
   const picture = await scene.render();
   if (!own.quiet) for (const warning of picture.report.warnings) console.error(`halflit: warning: ${warning}`);
   const ending = /\.([^./]+)$/.exec(output)?.[1] ?? "";
-  const file = picture.encode(output === "-" ? "png" : ending);
-  if (output === "-") process.stdout.write(file);
-  else writeFileSync(output, file);
-  if (own.report) {
-    const report = `${JSON.stringify({ ...picture.report, scene: model, output }, null, 2)}\n`;
-    if (own.report === "-") process.stdout.write(report);
-    else writeFileSync(own.report, report);
-  }
+  write(output, picture.encode(output === "-" ? "png" : ending));
+  if (own.report) write(own.report, `${JSON.stringify({ ...picture.report, scene: model, output }, null, 2)}\n`);
   if (!own.quiet && output !== "-") console.error(`halflit: wrote ${output}`);
 }
 
+// One line, and a number as the exit code: the code of a system's error is a word.
+function tell(error) {
+  console.error(`halflit: error: ${String(error.message).split("\n")[0]}`);
+  process.exitCode = Number.isInteger(error.code) ? error.code : kFile;
+}
+
+process.stdout.on("error", tell);  // whoever reads it has gone
 try {
   await main(process.argv.slice(2));
 } catch (error) {
-  console.error(`halflit: error: ${error.message}`);
-  process.exitCode = error.code ?? 1;
+  tell(error);
 }

@@ -166,21 +166,27 @@ function add_file(core, handle, name, bytes, of_scene) {
 // ---- pictures -----------------------------------------------------------------------------------------------------------
 export class Picture {
   #core;
+  // The scene's text is the report.
   constructor(core, handle) {
     this.#core = core;
     this.width = core._halflit_width(handle);
     this.height = core._halflit_height(handle);
     this.pixels = new Uint8ClampedArray(copied(core, core._halflit_pixels(handle), 4 * this.width * this.height).buffer);
-    core._halflit_report(handle);
     this.report = JSON.parse(core.UTF8ToString(core._halflit_text(handle)));
     this.hash = this.report.pixel_hash;
   }
   encode(format) {
+    const { width, height, pixels } = this, expected = 4 * width * height;  // all may have been changed, or sent to another thread
+    if (pixels?.length !== expected) throw usage(`pixels: expected ${expected} bytes for ${width} x ${height}, found ${pixels?.length ?? "none"}`);
     return call(this.#core, (core) => {
-      const place = allocated(core, this.pixels.length);
-      core.HEAPU8.set(this.pixels, place);
-      const size = with_text(core, `picture.${format}`, (name) => core._halflit_encode(place, this.width, this.height, name));
-      core._halflit_free(place);
+      const place = allocated(core, expected);
+      let size = -1;
+      try {
+        core.HEAPU8.set(pixels, place);
+        size = with_text(core, `picture.${format}`, (name) => core._halflit_encode(place, width, height, name));
+      } finally {
+        core._halflit_free(place);
+      }
       if (size < 0) throw usage(core.UTF8ToString(core._halflit_encoding_error()));
       const file = copied(core, core._halflit_encoded(), size);
       core._halflit_forget_encoded();
@@ -198,7 +204,7 @@ const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new Fina
 });
 
 export class Scene {
-  #core; #handle; #defaults; #resolve = null; #asked = new Set(); #environments = new Map();
+  #core; #handle; #defaults; #resolve = null; #asked = new Set(); #environment = null; #environments = 0;
 
   constructor(core, handle, defaults) {
     this.#core = core;
@@ -233,9 +239,9 @@ export class Scene {
 
   // Does it, and again with the files that it asked for, as far as the host has them.
   async #do(options, work) {
-    const flags = flag_words(this.#with_environment(options)).join("\n");
     for (let round = 0; ; ++round) {
       const core = this.#core, handle = this.#live();
+      const flags = flag_words(this.#with_environment(options)).join("\n");  // each time: another picture may have replaced the environment
       const code = call(core, () => with_text(core, flags, work));
       const found = round < kRounds ? await this.#ask() : [];
       if (found.length > 0) {
@@ -259,17 +265,21 @@ export class Scene {
     return answers.filter(([, bytes]) => bytes !== null);
   }
 
-  // Bytes of an environment become a file of the scene.
+  // Bytes of an environment become a file of the scene, which keeps the last one alone. Its name is new, as the module knows its light by it.
   #with_environment(options) {
-    if (!is_bytes(options.env)) return options;
-    let name = this.#environments.get(options.env);
-    if (!name) {
-      name = `environment ${this.#environments.size + 1}`;
-      this.#environments.set(options.env, name);
-      const bytes = options.env instanceof ArrayBuffer ? new Uint8Array(options.env) : new Uint8Array(options.env.buffer, options.env.byteOffset, options.env.byteLength);
-      call(this.#core, (core) => add_file(core, this.#live(), name, bytes, false));
+    const { env } = options;
+    if (!is_bytes(env)) return options;
+    if (this.#environment?.env !== env) {
+      const bytes = env instanceof ArrayBuffer ? new Uint8Array(env) : new Uint8Array(env.buffer, env.byteOffset, env.byteLength);
+      const last = this.#environment, name = `environment ${++this.#environments}`;
+      this.#environment = null;
+      call(this.#core, (core) => {
+        if (last) add_file(core, this.#live(), last.name, new Uint8Array(0), false);
+        add_file(core, this.#live(), name, bytes, false);
+      });
+      this.#environment = { env, name };
     }
-    return { ...options, env: name };
+    return { ...options, env: this.#environment.name };
   }
 
   #live() {
@@ -281,7 +291,7 @@ export class Scene {
     const all = { ...this.#defaults, ...options };
     let picture = null;
     await this.#do(all, (words) => {
-      const code = this.#core._halflit_draw(this.#live(), words);
+      const code = this.#core._halflit_draw(this.#live(), words) || this.#core._halflit_report(this.#handle);
       if (code === 0) picture = new Picture(this.#core, this.#handle);
       return code;
     });

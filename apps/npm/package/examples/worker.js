@@ -11,12 +11,28 @@ function options_of(query) {
   return options;
 }
 
+// The body's bytes, or null where it has more than kMostBytes: what is beyond them is not read.
+async function body_of(request) {
+  if (Number(request.headers.get("content-length")) > kMostBytes) return null;
+  const reader = request.body?.getReader(), parts = [];
+  let size = 0;
+  for (let part; reader && !(part = await reader.read()).done;) {
+    size += part.value.length;
+    if (size > kMostBytes) {
+      await reader.cancel();
+      return null;
+    }
+    parts.push(part.value);
+  }
+  return new Blob(parts).arrayBuffer();
+}
+
 export default {
   async fetch(request) {
     if (request.method !== "POST") return new Response("POST a model\n", { status: 405 });
     try {
-      const model = await request.arrayBuffer();
-      if (model.byteLength > kMostBytes) return new Response("the model is too large\n", { status: 413 });
+      const model = await body_of(request);
+      if (model === null) return new Response("the model is too large\n", { status: 413 });
       const picture = await render(model, options_of(new URL(request.url).searchParams));
       return new Response(picture.png(), { headers: { "content-type": "image/png", etag: `"${picture.hash}"` } });
     } catch (error) {
