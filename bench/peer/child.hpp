@@ -49,6 +49,20 @@ void set_up_process(int threads, PeerFilter filter);
 /// Time that passes, or CPU time of this process's threads together, which other programs on the machine disturb less.
 enum class Clock { wall, cpu };
 [[nodiscard]] double now_ms(Clock clock);
+class Stopwatch {
+public:
+    explicit Stopwatch(Clock clock) : clock_(clock) {}
+    /// Milliseconds since the last call, or since construction.
+    double lap() {
+        const double now = now_ms(clock_), passed = now - last_;
+        last_ = now;
+        return passed;
+    }
+
+private:
+    Clock clock_;
+    double last_ = now_ms(clock_);
+};
 
 /// Memory of this process in megabytes: what it holds now, and the most since reset_peak_memory().
 [[nodiscard]] double resident_mb();

@@ -6,18 +6,14 @@
 
 namespace halflit::peer {
 
-PictureDifference difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-    PictureDifference result;
-    std::size_t above = 0;
+void PictureDifference::add(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
     for (std::size_t i = 0; i + 3 < a.size(); i += 4) {
         int most = 0;
         for (std::size_t c = i; c < i + 4; ++c) most = std::max(most, std::abs(int{a[c]} - int{b[c]}));
-        result.largest = std::max(result.largest, most);
-        above += most > 2;
+        largest = std::max(largest, most);
+        above_2 += most > 2;
+        ++pixels;
     }
-    const double pixels = static_cast<double>(a.size()) / 4;
-    result.share_above_2 = static_cast<double>(above) / pixels;
-    return result;
 }
 
 Spread spread_of(std::vector<double> values) {

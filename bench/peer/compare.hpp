@@ -7,12 +7,14 @@
 
 namespace halflit::peer {
 
-/// Differences of two pictures of equal size, four bytes a pixel, alpha included.
+/// Differences of pairs of pictures of equal size, four bytes a pixel, alpha included.
 struct PictureDifference {
-    int largest = 0;           ///< codes, over all channels
-    double share_above_2 = 0;  ///< part of the pixels with a channel that differs by more than 2 codes
+    int largest = 0;                       ///< codes, over all channels
+    std::int64_t pixels = 0, above_2 = 0;  ///< above_2: pixels with a channel that differs by more than 2 codes
+
+    void add(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
+    [[nodiscard]] double share_above_2() const { return pixels > 0 ? static_cast<double>(above_2) / static_cast<double>(pixels) : 0; }
 };
-[[nodiscard]] PictureDifference difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
 /// Middle and quarters of some numbers, and the least.
 struct Spread {

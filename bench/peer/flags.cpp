@@ -20,7 +20,8 @@ void usage(std::FILE* to) {
         "  --samples N,M..         samples a pixel, 1 or 4 (default 1,4)\n"
         "  --rounds N              frames of each (default 20)\n"
         "  --seconds S             time for a scene, from the third round on (default 20)\n"
-        "  --size WxH              size of the picture (default 1920x1080)\n"
+        "  --views N               views of each data set, in place of rounds and seconds (default 1000; 50 for a quick look)\n"
+        "  --size WxH              size of the picture (default 1920x1080; data sets 256x256)\n"
         "  --textures rgba16|srgb8 llvmpipe's textures: halflit's texels (default), or rounded to 8 bits\n"
         "  --filter usual|fast     llvmpipe's filters: as they come (default), or with its shortcuts\n"
         "  --shader usual|special  llvmpipe's highlights: by pow (default), or their exponent 30 written as products\n"
@@ -31,7 +32,7 @@ void usage(std::FILE* to) {
         "  --csv DIR               write tables there, named by processor and instruction set\n"
         "scenes:\n");
     for (const SceneEntry& entry : scene_entries())
-        std::fprintf(to, "  %-12s %s\n", std::string(entry.name).c_str(), std::string(entry.content).c_str());
+        std::fprintf(to, "  %-14s %s\n", std::string(entry.name).c_str(), std::string(entry.content).c_str());
 }
 
 std::vector<std::string> parts(std::string_view text, char separator) {
@@ -77,6 +78,7 @@ bool read_flag(std::string_view flag, const std::string& value, Flags& flags) {
         return !flags.samples.empty() && std::all_of(flags.samples.begin(), flags.samples.end(), [](int n) { return n == 1 || n == 4; });
     }
     if (flag == "--rounds") return one_number(100000, flags.limits.rounds);
+    if (flag == "--views") return one_number(100000, flags.limits.views);
     if (flag == "--seconds") {
         int seconds = 0;
         if (!one_number(100000, seconds)) return false;

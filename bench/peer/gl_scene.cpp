@@ -1,6 +1,6 @@
 #include "bench/peer/gl_scene.hpp"
 
-#include "bench/peer/gl_shaders.hpp"
+#include "bench/peer/labelled_mesh.hpp"
 #include "raster/view/projection.hpp"
 #include "shading/environment.hpp"
 #include "shading/reference/reference.hpp"
@@ -10,18 +10,22 @@
 #include <GLES3/gl3.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace halflit::peer {
 namespace {
 
 constexpr GLenum kRgba16 = 0x805B;  // GL_RGBA16_EXT of EXT_texture_norm16
 
-/// Vertices as position, normal and, for textured scenes, tangent and coordinates, side by side.
-void upload_vertices(const Mesh& mesh, bool textured) {
-    const std::size_t floats = textured ? 12 : 6;
+/// Vertices as position, normal and, for textured scenes, tangent and coordinates, side by side: those of the mesh, or labelled copies. The
+/// codes and labels of copies are in a buffer of their own.
+void upload_vertices(const Mesh& mesh, bool textured, const LabelledMesh* labelled) {
+    const std::size_t floats = textured ? 12 : 6, count = labelled == nullptr ? mesh.positions.size() : labelled->source.size();
+    const std::vector<std::uint32_t>& indices = labelled == nullptr ? mesh.indices : labelled->indices;
     std::vector<float> vertices;
-    vertices.reserve(mesh.positions.size() * floats);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    vertices.reserve(count * floats);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = labelled == nullptr ? k : labelled->source[k];
         const Vec3f p = mesh.positions[i], n = mesh.normals[i];
         vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z});
         if (!textured) continue;
@@ -33,8 +37,7 @@ void upload_vertices(const Mesh& mesh, bool textured) {
     glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(), GL_STATIC_DRAW);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
-                 GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(), GL_STATIC_DRAW);
     const auto attribute = [&](GLuint location, GLint size, std::size_t first) {
         glEnableVertexAttribArray(location);
         glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(floats * sizeof(float)),
@@ -42,9 +45,21 @@ void upload_vertices(const Mesh& mesh, bool textured) {
     };
     attribute(0, 3, 0);
     attribute(1, 3, 3);
-    if (!textured) return;
-    attribute(2, 4, 6);
-    attribute(3, 2, 10);
+    if (textured) attribute(2, 4, 6), attribute(3, 2, 10);
+    if (labelled == nullptr) return;
+    struct Labels {
+        std::uint32_t code;
+        std::uint8_t weights[4];  // 255 for the copy's label
+    };
+    std::vector<Labels> labels(count);
+    for (std::size_t k = 0; k < count; ++k) labels[k].code = labelled->code[k], labels[k].weights[labelled->label[k]] = 255;
+    glGenBuffers(1, buffers);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(labels.size() * sizeof(Labels)), labels.data(), GL_STATIC_DRAW);
+    glEnableVertexAttribArray(4);
+    glVertexAttribIPointer(4, 1, GL_UNSIGNED_INT, sizeof(Labels), nullptr);
+    glEnableVertexAttribArray(5);
+    glVertexAttribPointer(5, 3, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Labels), reinterpret_cast<const void*>(offsetof(Labels, weights)));
 }
 
 std::uint8_t to_8_bits(std::uint16_t value, bool srgb) {
@@ -109,11 +124,6 @@ Mat4 gl_clip_from_world(const Camera& camera, float aspect) {
     return m;
 }
 
-void set_camera(unsigned program, const Mat4& clip_from_world) {
-    glUseProgram(program);
-    glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_world"), 1, GL_FALSE, &clip_from_world.c[0].x);
-}
-
 void set_lamps(unsigned program, const Scene& scene) {
     std::vector<Vec3f> positions, colors;
     for (const Light& light : scene.lights) {
@@ -128,51 +138,70 @@ void set_lamps(unsigned program, const Scene& scene) {
 
 }  // namespace
 
-bool GlScene::make(const BenchScene& bench, float aspect, TextureStorage storage, PeerShader shader, GlScene& out, std::string& reason) {
+bool GlScene::Program::make(const std::string& vertex, const std::string& fragment, std::string& reason) {
+    name = linked_program(vertex, fragment, reason);
+    clip_from_world = glGetUniformLocation(name, "clip_from_world");
+    eye = glGetUniformLocation(name, "eye");
+    return name != 0;
+}
+
+bool GlScene::make(const BenchScene& bench, const GlSceneOptions& options, GlScene& out, std::string& reason) {
     const Scene& scene = bench.scene;
-    const Vec4f eye = bench.camera.world_from_camera.c[3];
-    const ShaderSources sources = shader_sources(scene, {eye.x, eye.y, eye.z}, shader == PeerShader::special);
-    out.program_ = linked_program(sources.vertex, sources.fragment, reason);
-    out.depth_program_ = linked_program(sources.vertex, sources.depth_fragment, reason);
-    if (out.program_ == 0 || out.depth_program_ == 0) return false;
+    const ShaderSources sources = shader_sources(scene, options.outputs, options.shader == PeerShader::special);
+    if (!out.program_.make(sources.vertex, sources.fragment, reason)) return false;
+    if (!out.depth_program_.make(sources.vertex, sources.depth_fragment, reason)) return false;
 
     glGenVertexArrays(1, &out.vertex_array_);
     glBindVertexArray(out.vertex_array_);
     const bool textured = !scene.textures.empty();
-    upload_vertices(scene.meshes[0], textured);
-    out.index_count_ = static_cast<int>(scene.meshes[0].indices.size());
-    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-        glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + i));
-        upload_texture(scene.textures[i], storage, i == 0);
+    if (options.outputs == PeerOutputs::colour) {
+        upload_vertices(scene.meshes[0], textured, nullptr);
+    } else {
+        const LabelledMesh labelled = label_corners(scene.meshes[0]);
+        upload_vertices(scene.meshes[0], textured, &labelled);
     }
-    const Mat4 clip_from_world = gl_clip_from_world(bench.camera, aspect);
-    set_camera(out.depth_program_, clip_from_world);
-    set_camera(out.program_, clip_from_world);
-    set_lamps(out.program_, scene);
-    upload_reflections(out.program_, *scene.environment, 2);
-    if (textured) {
-        glUniform1i(glGetUniformLocation(out.program_, "base_color_texture"), 0);
-        glUniform1i(glGetUniformLocation(out.program_, "normal_texture"), 1);
+    out.corner_count_ = static_cast<int>(scene.meshes[0].indices.size());
+    if (options.outputs != PeerOutputs::planes) {
+        for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+            glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + i));
+            upload_texture(scene.textures[i], options.storage, i == 0);
+        }
+        const unsigned program = out.program_.name;
+        glUseProgram(program);
+        set_lamps(program, scene);
+        upload_reflections(program, *scene.environment, 2);
+        if (textured) {
+            glUniform1i(glGetUniformLocation(program, "base_color_texture"), 0);
+            glUniform1i(glGetUniformLocation(program, "normal_texture"), 1);
+        }
     }
     const GLenum error = glGetError();
     if (error != GL_NO_ERROR) reason = "OpenGL error " + std::to_string(error);
     return error == GL_NO_ERROR;
 }
 
+void GlScene::look(const Camera& camera, float aspect, Vec2f sample) const {
+    Mat4 clip_from_world = gl_clip_from_world(camera, aspect);
+    for (Vec4f& column : clip_from_world.c) column.x -= sample.x * column.w, column.y -= sample.y * column.w;
+    const Vec4f eye = camera.world_from_camera.c[3];
+    for (const Program& program : {depth_program_, program_}) {
+        glUseProgram(program.name);
+        glUniformMatrix4fv(program.clip_from_world, 1, GL_FALSE, &clip_from_world.c[0].x);
+        glUniform3f(program.eye, eye.x, eye.y, eye.z);
+    }
+}
+
 void GlScene::draw(bool depth_first) const {
-    glClearColor(0, 0, 0, 1);
-    glClearDepthf(1);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     glFrontFace(GL_CW);  // y is turned over
     glDisable(GL_DITHER);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glBindVertexArray(vertex_array_);
-    const auto draw_all = [&](unsigned program) {
-        glUseProgram(program);
-        glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+    const auto draw_all = [&](const Program& program) {
+        glUseProgram(program.name);
+        glDrawElements(GL_TRIANGLES, corner_count_, GL_UNSIGNED_INT, nullptr);
     };
     if (depth_first) {
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

@@ -34,6 +34,12 @@ layout(location = 3) in vec2 uv;
 out vec4 v_tangent;
 out vec2 v_uv;
 #endif
+#ifdef PLANES
+layout(location = 4) in uint code;
+layout(location = 5) in vec3 label;
+flat out uint v_code;
+out vec3 v_weights;
+#endif
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
     v_position = position;
@@ -42,6 +48,25 @@ void main() {
     v_tangent = tangent;
     v_uv = uv;
 #endif
+#ifdef PLANES
+    v_code = code;
+    v_weights = label;
+#endif
+}
+)";
+
+constexpr const char* kPlanes = R"(
+flat in uint v_code;
+in vec3 v_weights;
+layout(location = 1) out uint triangle;
+layout(location = 2) out float depth;
+layout(location = 3) out vec2 weights;
+void write_planes() {
+    triangle = v_code >> 4u;
+    depth = 1.0 / gl_FragCoord.w;
+    uint second = v_code & 3u, third = (v_code >> 2u) & 3u;
+    weights.x = second == 0u ? v_weights.x : second == 1u ? v_weights.y : v_weights.z;
+    weights.y = third == 0u ? v_weights.x : third == 1u ? v_weights.y : v_weights.z;
 }
 )";
 
@@ -58,7 +83,8 @@ uniform sampler2D around_map;
 uniform float around_turned;
 uniform vec3 lamp_position[LAMPS];
 uniform vec3 lamp_color[LAMPS];
-out vec4 color;
+uniform vec3 eye;
+layout(location = 0) out vec4 color;
 
 // Three bands of spherical harmonics as a polynomial in the direction's components.
 #define SERIES(name, n) \
@@ -94,7 +120,7 @@ void main() {
     vec3 mapped = 2.0 * texture(normal_texture, v_uv).rgb - 1.0;
     normal = normalize(tangent * mapped.x + cross(normal, tangent) * v_tangent.w * mapped.y + normal * mapped.z);
 #endif
-    vec3 to_eye = normalize(EYE - v_position);
+    vec3 to_eye = normalize(eye - v_position);
     vec3 diffuse = vec3(0.0), highlight = vec3(0.0);
     for (int i = 0; i < LAMPS; ++i) {
         vec3 offset = lamp_position[i] - v_position;
@@ -111,6 +137,9 @@ void main() {
     vec3 around = base * (1.0 - share) * SERIES(normal, kDiffuse) +
         share * mirrored(reflection + (normal - n_dot_v * reflection) * shape.z, shape.w);
     color = vec4(albedo * diffuse + f0 * highlight * NORMALIZATION + around, 1.0);
+#ifdef PLANES
+    write_planes();
+#endif
 }
 )";
 
@@ -169,7 +198,7 @@ std::string mirror_constants(float roughness) {
 
 }  // namespace
 
-ShaderSources shader_sources(const Scene& scene, Vec3f eye, bool products) {
+ShaderSources shader_sources(const Scene& scene, PeerOutputs outputs, bool products) {
     static_assert(kEnvironmentBands == 3);
     const Material& material = scene.materials[0];
     const bool textured = material.textures[TextureSlot::base_color].used();
@@ -179,6 +208,7 @@ ShaderSources shader_sources(const Scene& scene, Vec3f eye, bool products) {
 
     std::string head = kHead;
     if (textured) define(head, "TEXTURED", "1");
+    if (outputs != PeerOutputs::colour) define(head, "PLANES", "1");
     define(head, "LAMPS", std::to_string(lamps));
     define(head, "WRAP", number(material.lobe.wrap));
     const double exponent = 2 * half_exponent;
@@ -189,7 +219,6 @@ ShaderSources shader_sources(const Scene& scene, Vec3f eye, bool products) {
     define(head, "BASE", vec3({material.base_color.x, material.base_color.y, material.base_color.z}));
     define(head, "DIELECTRIC", number(material.dielectric_reflectance));
     define(head, "LEAST_SQUARED", number(double{shading::kMinSourceRadius} * double{shading::kMinSourceRadius}));
-    define(head, "EYE", vec3(eye));
     std::string suns;
     for (const Light& sun : environment_suns(*scene.environment))
         suns +=
@@ -198,7 +227,9 @@ ShaderSources shader_sources(const Scene& scene, Vec3f eye, bool products) {
     const sh::WrapLobe lobe{material.lobe.wrap, material.lobe.power, material.lobe.scale()};
     define(head, "LAST_LEVEL", number(shading::kReflectionLevels - 1));
     const std::string light = series("kDiffuse", plan(*scene.environment, lobe)) + mirror_constants(roughness);
-    return {head + kVertex, head + light + kFragment, head + "void main() {}\n"};
+    const std::string planes = outputs == PeerOutputs::colour ? "" : kPlanes;
+    const std::string fragment = outputs == PeerOutputs::planes ? "void main() { write_planes(); }\n" : light + kFragment;
+    return {head + kVertex, head + planes + fragment, head + "void main() {}\n"};
 }
 
 }  // namespace halflit::peer

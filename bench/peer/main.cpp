@@ -32,7 +32,8 @@ Found find_peer() {
 int write_scenes(const Flags& flags) {
     std::filesystem::create_directories(flags.glb);
     for (const std::string& name : flags.scenes) {
-        const double aspect = static_cast<double>(flags.limits.width) / flags.limits.height;
+        const Limits limits = limits_for(name, flags.limits);
+        const double aspect = static_cast<double>(limits.width) / limits.height;
         const BenchScene bench = make_bench_scene(name, static_cast<float>(aspect));
         test::GlbContent content{bench.scene, bench.camera, aspect, {}, "halflit_peer_bench"};
         for (const Picture& picture : bench.pictures) content.pictures.push_back({picture.width, picture.height, picture.rgba8});
@@ -70,7 +71,7 @@ template <class Measure>
 auto measured(const Subject& subject, const Limits& limits, const Measure& measure) {
     auto result = in_child([&] {
         set_up_process(subject.threads, subject.filter);
-        return measure(subject, limits);
+        return measure(subject, limits_for(subject.scene, limits));
     });
     if (!result) {
         result.emplace();
@@ -105,7 +106,7 @@ int main(int argc, char** argv) {
         std::printf("skipped: no llvmpipe: %s\n", found ? found->text : "the driver crashed");
         return 4;
     }
-    std::printf("%s, %dx%d, milliseconds (median)\n", found->text, flags->limits.width, flags->limits.height);
+    std::printf("%s, milliseconds (median)\n", found->text);
 
     const std::vector<Isa> isas = measured_isas();
     bool good = true;
@@ -121,7 +122,7 @@ int main(int argc, char** argv) {
     if (!save()) return 1;
     print_turns_head(isas);
     for (const Subject& subject : subjects_of(*flags)) {
-        turns.push_back({subject, measured(subject, flags->limits, measure_turns)});
+        turns.push_back({subject, measured(subject, flags->limits, is_dataset(subject.scene) ? measure_dataset : measure_turns)});
         good = good && turns.back().turns.reason[0] == '\0' && pictures_agree(turns.back());
         print_turns(turns.back(), isas);
         if (!save()) return 1;
@@ -130,7 +131,7 @@ int main(int argc, char** argv) {
 
     if (flags->first) print_first_head();
     for (const Subject& subject : subjects_of(*flags)) {
-        if (!flags->first || subject.depth_first) continue;
+        if (!flags->first || subject.depth_first || is_dataset(subject.scene)) continue;
         cache.clear();
         FirstRow row{subject, {}, {}, {}};
         row.cold = measured(subject, flags->limits, measure_first_of_peer);

@@ -12,21 +12,6 @@
 namespace halflit::peer {
 namespace {
 
-class Stopwatch {
-public:
-    explicit Stopwatch(Clock clock) : clock_(clock) {}
-    /// Milliseconds since the last call, or since construction.
-    double lap() {
-        const double now = now_ms(clock_), passed = now - last_;
-        last_ = now;
-        return passed;
-    }
-
-private:
-    Clock clock_;
-    double last_ = now_ms(clock_);
-};
-
 float aspect_of(const Limits& limits) { return static_cast<float>(limits.width) / static_cast<float>(limits.height); }
 
 /// llvmpipe with a scene and a target.
@@ -37,13 +22,15 @@ struct Peer {
 
     bool make(const BenchScene& bench, const Subject& subject, const Limits& limits, std::string& reason) {
         context = MesaContext::create(reason);
-        return context != nullptr && GlScene::make(bench, aspect_of(limits), subject.storage, subject.shader, scene, reason) &&
-               GlTarget::make(limits.width, limits.height, subject.samples, target, reason);
+        if (context == nullptr || !GlScene::make(bench, {subject.storage, subject.shader}, scene, reason)) return false;
+        scene.look(bench.camera, aspect_of(limits));
+        return GlTarget::make(limits.width, limits.height, subject.samples, target, reason);
     }
     void draw(const Subject& subject) const {
-        target.bind();
+        target.begin();
         scene.draw(subject.depth_first);
-        target.finish();
+        target.resolve();
+        wait_until_drawn();
     }
 };
 
@@ -72,20 +59,42 @@ struct Ours {
     }
 };
 
-bool write_pictures(const Subject& subject, const Limits& limits, const std::vector<std::uint8_t>& peer,
-                    const std::vector<std::uint8_t>& ours, std::string& reason) {
-    std::filesystem::create_directories(subject.pictures);
-    const std::string stem = subject.pictures + "/" + subject.scene + "-" + std::to_string(subject.samples);
-    for (const auto& [name, rgba8] : {std::pair{"-llvmpipe.png", &peer}, std::pair{"-halflit.png", &ours}}) {
-        const auto written = write_image(stem + name, {limits.width, limits.height, *rgba8, {}});
-        if (!written) return reason = written.error().message, false;
-    }
-    return true;
-}
-
 void state(const std::string& reason, char (&text)[200]) { std::snprintf(text, sizeof text, "%s", reason.c_str()); }
 
 }  // namespace
+
+Limits limits_for(std::string_view scene, Limits limits) {
+    if (limits.width == 0) limits.width = is_dataset(scene) ? 256 : 1920, limits.height = is_dataset(scene) ? 256 : 1080;
+    return limits;
+}
+
+void TurnTimes::add(double peer_ms, double readback_ms, const double (&halflit_ms)[kMostIsas]) {
+    peer_ms_.push_back(peer_ms);
+    readback_ms_.push_back(readback_ms);
+    for (std::size_t i = 0; i < measured_isas().size(); ++i) {
+        halflit_ms_[i].push_back(halflit_ms[i]);
+        ratio_[i].push_back(peer_ms / halflit_ms[i]);
+    }
+}
+
+void TurnTimes::write_to(Turns& turns) const {
+    turns.rounds = static_cast<int>(peer_ms_.size());
+    turns.peer_ms = spread_of(peer_ms_);
+    turns.readback_ms = spread_of(readback_ms_);
+    for (std::size_t i = 0; i < kMostIsas; ++i) {
+        turns.halflit_ms[i] = spread_of(halflit_ms_[i]);
+        turns.ratio[i] = spread_of(ratio_[i]);
+    }
+}
+
+Result<void> write_pictures(const Subject& subject, const Limits& limits, const std::vector<std::uint8_t>& peer,
+                            const std::vector<std::uint8_t>& ours) {
+    if (subject.pictures.empty()) return {};
+    std::filesystem::create_directories(subject.pictures);
+    const std::string stem = subject.pictures + "/" + subject.scene + "-" + std::to_string(subject.samples);
+    const auto written = write_image(stem + "-llvmpipe.png", {limits.width, limits.height, peer, {}});
+    return written ? write_image(stem + "-halflit.png", {limits.width, limits.height, ours, {}}) : written;
+}
 
 std::vector<Isa> measured_isas() {
     std::vector<Isa> isas;
@@ -105,7 +114,7 @@ Turns measure_turns(const Subject& subject, const Limits& limits) {
     Ours ours;
     if (!peer.make(bench, subject, limits, reason) || !ours.make(bench, subject, limits, reason)) return state(reason, turns.reason), turns;
     const std::vector<Isa> isas = measured_isas();
-    std::vector<double> peer_ms, readback_ms, halflit_ms[kMostIsas], ratio[kMostIsas];
+    TurnTimes times;
     std::vector<std::uint8_t> picture;
     Stopwatch all(Clock::wall);
     double spent_ms = 0;
@@ -123,22 +132,11 @@ Turns measure_turns(const Subject& subject, const Limits& limits) {
         }
         spent_ms += all.lap();
         if (round < 0) continue;  // the first frame compiles shaders and takes memory
-        ++turns.rounds;
-        peer_ms.push_back(drawn_ms);
-        readback_ms.push_back(read_ms);
-        for (std::size_t i = 0; i < isas.size(); ++i) {
-            halflit_ms[i].push_back(own_ms[i]);
-            ratio[i].push_back(drawn_ms / own_ms[i]);
-        }
+        times.add(drawn_ms, read_ms, own_ms);
     }
-    turns.peer_ms = spread_of(peer_ms);
-    turns.readback_ms = spread_of(readback_ms);
-    for (std::size_t i = 0; i < isas.size(); ++i) {
-        turns.halflit_ms[i] = spread_of(halflit_ms[i]);
-        turns.ratio[i] = spread_of(ratio[i]);
-    }
-    turns.pictures = difference(picture, ours.rgba8);
-    if (!subject.pictures.empty() && !write_pictures(subject, limits, picture, ours.rgba8, reason)) state(reason, turns.reason);
+    times.write_to(turns);
+    turns.pictures.add(picture, ours.rgba8);
+    if (const auto written = write_pictures(subject, limits, picture, ours.rgba8); !written) state(written.error().message, turns.reason);
     return turns;
 }
 

@@ -4,6 +4,7 @@
 
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -20,11 +21,33 @@ std::string machine_name(Isa widest) {
     return (uname(&system) == 0 ? std::string(system.machine) : "unknown") + "_" + name_of(widest);
 }
 
+/// A second line for data sets.
+void print_planes(const Turns& t, const std::vector<Isa>& isas) {
+    std::printf("    views a second: llvmpipe %.0f", 1000 / t.peer_ms.median);
+    for (std::size_t i = 0; i < isas.size(); ++i) std::printf(", %s %.0f", name_of(isas[i]).c_str(), 1000 / t.halflit_ms[i].median);
+    const auto print = [&](const char* name, const Differing& differing) {
+        std::printf(", %s %.3f %%", name,
+                    100 * static_cast<double>(differing.all) / static_cast<double>(std::max<std::int64_t>(t.planes.pixels, 1)));
+    };
+    std::printf("; differing");
+    print("triangles", t.planes.triangles);
+    print("depths", t.planes.depths);
+    print("points", t.planes.points);
+    std::printf("\n");
+}
+
 }  // namespace
 
 bool pictures_agree(const TurnsRow& row) {
     const double limit = row.subject.samples == 1 ? kMostAbove2 : kMostAbove2OfSamples;
-    return row.subject.filter != PeerFilter::usual || row.turns.pictures.share_above_2 <= limit;
+    const PlanesDifference& planes = row.turns.planes;
+    if (is_dataset(row.subject.scene) && planes.pixels == 0) return false;  // nothing was compared
+    const auto kept = [&](const Differing& differing, double most) {
+        return differing.inner == 0 && static_cast<double>(differing.all) <= most * static_cast<double>(planes.pixels);
+    };
+    if (!kept(planes.triangles, kMostOther) || !kept(planes.depths, kMostOther)) return false;
+    if (!kept(planes.points, row.subject.samples == 1 ? kMostOther : kMostAbove2OfSamples)) return false;
+    return row.subject.filter != PeerFilter::usual || row.turns.pictures.share_above_2() <= limit;
 }
 
 void print_turns_head(const std::vector<Isa>& isas) {
@@ -40,19 +63,23 @@ void print_turns(const TurnsRow& row, const std::vector<Isa>& isas) {
         std::printf("  %s\n", t.reason);
         return;
     }
-    std::printf(" %7d %9.1f %9.1f", t.rounds, t.peer_ms.median, t.readback_ms.median);
+    std::printf(" %7d %9.2f %9.2f", t.rounds, t.peer_ms.median, t.readback_ms.median);
     for (std::size_t i = 0; i < isas.size(); ++i)
-        std::printf("  %8.1f %7.2f (%.2f .. %.2f)", t.halflit_ms[i].median, t.ratio[i].median, t.ratio[i].first_quarter,
+        std::printf("  %8.2f %7.2f (%.2f .. %.2f)", t.halflit_ms[i].median, t.ratio[i].median, t.ratio[i].first_quarter,
                     t.ratio[i].third_quarter);
-    std::printf("  %6d %.3f %%%s\n", t.pictures.largest, 100 * t.pictures.share_above_2, pictures_agree(row) ? "" : " (too many)");
+    std::printf("  %6d %.3f %%%s\n", t.pictures.largest, 100 * t.pictures.share_above_2(), pictures_agree(row) ? "" : " (too many)");
+    if (is_dataset(row.subject.scene)) print_planes(t, isas);
     std::fflush(stdout);
 }
 
 void print_means(const std::vector<TurnsRow>& rows, const std::vector<Isa>& isas) {
+    const auto counts = [](const TurnsRow& row) {
+        return !row.subject.depth_first && !is_dataset(row.subject.scene) && row.turns.rounds > 0;
+    };
     std::vector<std::pair<int, int>> kinds;  // samples, threads
     for (const TurnsRow& row : rows) {
         const std::pair kind{row.subject.samples, row.subject.threads};
-        if (kinds.empty() || kinds.back() != kind) kinds.push_back(kind);
+        if (counts(row) && (kinds.empty() || kinds.back() != kind)) kinds.push_back(kind);
     }
     for (const auto& [samples, threads] : kinds) {
         std::printf("geometric mean, %d samples, %d threads, no pre-pass:", samples, threads);
@@ -60,12 +87,11 @@ void print_means(const std::vector<TurnsRow>& rows, const std::vector<Isa>& isas
             double sum = 0;
             int count = 0;
             for (const TurnsRow& row : rows) {
-                const Subject& s = row.subject;
-                if (s.samples != samples || s.threads != threads || s.depth_first || row.turns.rounds == 0) continue;
+                if (!counts(row) || row.subject.samples != samples || row.subject.threads != threads) continue;
                 sum += std::log(row.turns.ratio[i].median);
                 ++count;
             }
-            if (count > 0) std::printf("  %s %.2f of %d scenes", name_of(isas[i]).c_str(), std::exp(sum / count), count);
+            std::printf("  %s %.2f of %d scenes", name_of(isas[i]).c_str(), std::exp(sum / count), count);
         }
         std::printf("\n");
     }
@@ -98,7 +124,7 @@ bool write_csv(const std::string& folder, const std::vector<TurnsRow>& turns, co
             std::fprintf(file, "%s,%d,%d,%s,%d,%.2f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%d,%.6f\n", name_of(row.subject).c_str(),
                          row.subject.samples, row.subject.threads, name_of(isas[i]).c_str(), t.rounds, t.peer_ms.median, t.peer_ms.least,
                          t.readback_ms.median, t.halflit_ms[i].median, t.halflit_ms[i].least, t.ratio[i].median, t.ratio[i].first_quarter,
-                         t.ratio[i].third_quarter, t.pictures.largest, t.pictures.share_above_2);
+                         t.ratio[i].third_quarter, t.pictures.largest, t.pictures.share_above_2());
     }
     bool good = std::fclose(file) == 0;
     if (first.empty()) return good;

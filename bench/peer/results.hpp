@@ -21,12 +21,16 @@ struct FirstRow {
 /// Largest share of pixels that may differ by more than 2 codes. With several samples, a triangle that covers some of a pixel but not its
 /// centre is textured differently: llvmpipe extrapolates the coordinates to the centre, halflit keeps them inside the triangle.
 inline constexpr double kMostAbove2 = 0.001, kMostAbove2OfSamples = 0.1;
-/// True if that is kept, or if the filter is one that does not give the same picture.
+/// Largest share of pixels of data sets whose triangle, depth or point may differ; none of them may be an inner pixel. With several samples
+/// llvmpipe's points are those of the first sample. halflit's are the pixel's centre, or lie beside it where the triangle does not hold it;
+/// these differ in as many pixels as colours.
+inline constexpr double kMostOther = 0.002;
+/// True if all of this is kept, colours only if the filter is one that gives the same picture.
 [[nodiscard]] bool pictures_agree(const TurnsRow& row);
 
 void print_turns_head(const std::vector<Isa>& isas);
 void print_turns(const TurnsRow& row, const std::vector<Isa>& isas);
-/// Geometric means of the ratios over all scenes, for each number of threads and samples.
+/// Geometric means of the ratios over all scenes but data sets, for each number of threads and samples.
 void print_means(const std::vector<TurnsRow>& rows, const std::vector<Isa>& isas);
 void print_first_head();
 void print_first(const FirstRow& row);

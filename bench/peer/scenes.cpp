@@ -85,6 +85,15 @@ void spheres(BenchScene& bench, int lamps) {
     bench.camera = camera_at({0, 0, 6});
 }
 
+/// One of the spheres, under 2 lamps.
+void small(BenchScene& bench) {
+    bench.scene.meshes[0] = make_sphere(0.5f, 64, 32);
+    generate_tangents(bench.scene.meshes[0], 0);
+    add_textures(bench, kTextureSide, 1.0f);
+    add_lamps(bench.scene, 2, {-2, 1, -2}, {2, 2, 2}, 3.0f);
+    bench.camera = camera_at({0, 0, 1});  // sin(30 degrees) = 1 / 2
+}
+
 void dense(BenchScene& bench, std::int64_t triangles) {
     bench.scene.meshes[0] = make_sphere_of(1.0f, triangles);
     bench.scene.meshes[0].uv0.clear();
@@ -166,7 +175,9 @@ const std::vector<SceneEntry>& scene_entries() {
                                                     {"dense-4", "a sphere of four million triangles, 2 lamps"},
                                                     {"fill", "one textured square that fills the picture, 8 lamps"},
                                                     {"overdraw", "32 such squares, back to front"},
-                                                    {"boxes", "200,000 small boxes, 2.4 M triangles, 2 lamps"}};
+                                                    {"boxes", "200,000 small boxes, 2.4 M triangles, 2 lamps"},
+                                                    {"dataset-small", "views of one of the spheres, 2 lamps, with planes"},
+                                                    {"dataset-large", "views of the 64 spheres, 4 lamps, with planes"}};
     return entries;
 }
 
@@ -174,6 +185,8 @@ BenchScene make_bench_scene(std::string_view name, float aspect) {
     BenchScene bench = begin(name);
     if (name.starts_with("spheres-")) spheres(bench, number_after(name, "spheres-"));
     if (name.starts_with("dense-")) dense(bench, std::int64_t{1000000} * number_after(name, "dense-"));
+    if (name == "dataset-small") small(bench);
+    if (name == "dataset-large") spheres(bench, 4);
     if (name == "fill") fill(bench, {}, aspect);
     if (name == "overdraw") fill(bench, {.layers = 32}, aspect);
     if (name == "boxes") boxes(bench, 200000);

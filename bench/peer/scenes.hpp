@@ -30,6 +30,9 @@ struct SceneEntry {
 };
 [[nodiscard]] const std::vector<SceneEntry>& scene_entries();
 
+/// True for the names of data sets: scenes that are drawn from all sides. The camera of their BenchScene counts for files alone.
+[[nodiscard]] inline bool is_dataset(std::string_view name) { return name.starts_with("dataset-"); }
+
 /// Makes a scene. `aspect`: the picture's width / height, which full-screen surfaces fill.
 [[nodiscard]] BenchScene make_bench_scene(std::string_view name, float aspect);
 
