@@ -85,7 +85,9 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
     options->scene = scene;
     options->execution.threads = 1;
     options->may_want_reference = true;
-    options->load.limits.max_geometry_bytes = std::uint64_t{1} << 30;  // of the 2 GB that the module may take
+    constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // of the 2 GB that the module may take
+    std::uint64_t& most = options->load.limits.max_geometry_bytes;
+    most = std::min(most, kMostBytes);
     Keys keys = keys_of(scene, flags);
     if (job_ && keys.scene == scene_flags_) {
         const bool same_light = keys.light == light_flags_;

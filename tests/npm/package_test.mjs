@@ -74,6 +74,8 @@ check("twelve skies more take less memory than eight of them have", (await memor
 check("sixteen skies give as many pictures", new Set(of_skies).size === 16);
 check("a sky of before is that of before", (await lit.render({ env: skies[2] })).hash === of_skies[2] && (await lit.render({ env: skies[2] })).hash === of_skies[2]);
 lit.free();
+const too_large = await render(knot, { size: "32x24", maxGeometryBytes: 10 }).catch((error) => error);
+check("a limit on the memory of vertices is kept", too_large.code === 5, `${too_large.code} ${too_large.message}`);
 
 // ---- files beside a model -----------------------------------------------------------------------------------------------
 const size = { width: 120, height: 90 }, names = ["textured.bin", "photo.jpg", "ball.png"];
