@@ -1,5 +1,6 @@
 """A picture is a numpy array that keeps what is known about it."""
 import copy
+import io
 import multiprocessing
 import os
 import pathlib
@@ -31,6 +32,13 @@ class Saved(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [])
         with self.assertRaisesRegex(halflit.UsageError, "path: expected a text or a path"):
             picture.save(3, format="png")
+
+    def test_wrong_places_and_formats_are_named(self):
+        picture = halflit.render("demo", (16, 12))
+        for call, name in ((lambda: picture.save(io.StringIO()), "path"), (lambda: picture.save(None), "path"),
+                           (lambda: picture.save(None, format="png"), "path"), (lambda: picture.encode(None), "format")):
+            with self.assertRaisesRegex(halflit.UsageError, f"^{name}: "):
+                call()
 
     def test_a_file_is_whole_whoever_writes_it_and_nothing_else_is_left(self):
         pictures = [np.full((64, 64, 4), shade, np.uint8).view(halflit.Picture) for shade in (10, 200)]

@@ -5,6 +5,7 @@ import base64
 import contextlib
 import ctypes
 import html
+import io
 import math
 import os
 from typing import TYPE_CHECKING, Any, BinaryIO, Dict, Optional, Tuple, Union, cast
@@ -103,6 +104,8 @@ class Picture(_Base):
         path: its name, or a file object that is open in binary mode. format: as in encode(); that of the name if it is left out, and PNG
         for a file object without a name. In 8-bit files floats become sRGB codes; light above 1 is cut off.
         """
+        if isinstance(path, io.TextIOBase):
+            raise UsageError("path: expected a file that is open in binary mode, found one of text")
         write, named = getattr(path, "write", None), cast(str, path)
         if write is not None or format is not None:
             name = getattr(path, "name", None) if write is not None else named
@@ -111,10 +114,10 @@ class Picture(_Base):
             if write is not None:
                 write(encoded)
                 return
-            replace_file(os.fsdecode(_c.bytes_of(path, "path") or b""), encoded)
+            replace_file(os.fsdecode(_c.required(path, "path")), encoded)
             return
-        text = _c.bytes_of(path, "path")
-        pixels, target = self._target(os.path.splitext(os.fsdecode(text or b""))[1].lower(), os.fsdecode(named))
+        text = _c.required(path, "path")
+        pixels, target = self._target(os.path.splitext(os.fsdecode(text))[1].lower(), os.fsdecode(named))
         _c.call("write_image", text, ctypes.byref(target))
 
     def to_png(self) -> bytes:
@@ -126,7 +129,7 @@ class Picture(_Base):
         become sRGB codes; light above 1 is cut off."""
         taken = []
         write = _c.Write(lambda user, bytes, count: taken.append(ctypes.string_at(bytes, count)))
-        name = _c.bytes_of(format, "format")
+        name = _c.required(format, "format")
         pixels, target = self._target(f".{format.lower()}", "encode")
         _c.call("encode_image", name, ctypes.byref(target), write, None)
         return taken[0]
