@@ -143,8 +143,7 @@ std::vector<FlagGroup> look_flags(LookOptions& o) {
         {"Sheet",
          {{"--projection", "third|first",
            "Third angle: the top is above the front, the right side on its right; first angle: the other way round. For views of sides, "
-           "with "
-           "the front among them (default third)",
+           "with the front among them (default third)",
            [&o](const std::string& text) -> Result<void> {
                if (text != "third" && text != "first") return fail(ErrorCode::usage, "expected third or first, found '" + text + "'");
                o.projection = text == "first" ? Projection::first_angle : Projection::third_angle;

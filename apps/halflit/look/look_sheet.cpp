@@ -43,7 +43,13 @@ PixelBox draw_dimensions(const RenderJob& job, const ViewShot& shot, const Pixel
         return std::max({v.x * v.x, v.y * v.y, v.z * v.z}) > kAlmostOne;
     };
     if (!shot.camera.orthographic || bounds.empty || !is_axis(m.c[0]) || !is_axis(m.c[1])) return {};
-    const auto [x0, y0, x1, y1] = window_box(shot, bounds);
+    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+    for (unsigned k = 0; k < 8; ++k) {
+        const Vec3d p =
+            window_point(shot.camera, shot.width(), shot.height(),
+                         {k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z});
+        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
+    }
     const Vec3d size = to_double(bounds.max) - to_double(bounds.min);
     const auto along = [&](const Vec4f& v) { return absolute(v.x) * size.x + absolute(v.y) * size.y + absolute(v.z) * size.z; };
     const auto text = [&](double length) { return number_text(length * unit.per_drawn_unit) + (unit.name.empty() ? "" : " ") + unit.name; };

@@ -4,7 +4,6 @@
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace halflit::cli {
@@ -60,17 +59,6 @@ Vec3d window_point(const Camera& camera, int width, int height, Vec3d p) {
     const raster::ClipPlace at = raster::clip_place(raster::clip_from_world(camera, aspect), p);
     const Mat4& m = camera.world_from_camera;
     return {(at.x / at.w * 0.5 + 0.5) * width, (0.5 - at.y / at.w * 0.5) * height, dot(axis(m, 3) - p, axis(m, 2))};
-}
-
-WindowBox window_box(const ViewShot& shot, const Bounds& bounds) {
-    WindowBox box{1e300, 1e300, -1e300, -1e300};
-    for (unsigned k = 0; k < 8; ++k) {
-        const Vec3d p =
-            window_point(shot.camera, shot.width(), shot.height(),
-                         {k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z});
-        box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
-    }
-    return box;
 }
 
 }  // namespace halflit::cli

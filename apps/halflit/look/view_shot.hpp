@@ -45,10 +45,4 @@ struct ShotPlanes {
 /// along the view axis.
 [[nodiscard]] Vec3d window_point(const Camera& camera, int width, int height, Vec3d p);
 
-/// The part of the picture within which bounds are seen that lie before the viewer; a fault of views tells of others. Pixels.
-struct WindowBox {
-    double x0, y0, x1, y1;
-};
-[[nodiscard]] WindowBox window_box(const ViewShot& shot, const Bounds& bounds);
-
 }  // namespace halflit::cli

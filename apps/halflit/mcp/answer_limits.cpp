@@ -21,17 +21,6 @@ std::string beginning_of(const std::string& text, std::size_t bytes) {
     return text.substr(0, bytes) + kCut;
 }
 
-/// A key in a JSON pointer [RFC 6901].
-std::string pointer_token(const std::string& key) {
-    std::string token;
-    for (const char c : key) {
-        if (c == '~') token += "~0";
-        if (c == '/') token += "~1";
-        if (c != '~' && c != '/') token += c;
-    }
-    return token;
-}
-
 /// A point, a matrix, or a row of one.
 bool stays_whole(const Json& list) {
     return list.size() <= kMostNumbers &&
@@ -44,23 +33,23 @@ public:
     explicit ReportCutter(std::size_t most) : most_(most) {}
 
     [[nodiscard]] Json cut(const Json& report) {
-        Json kept = copy(report, "");
+        Json kept = copy(report, Json::json_pointer());
         if (!left_out_.empty()) kept["left_out"] = std::move(left_out_);
         return kept;
     }
 
 private:
-    [[nodiscard]] Json copy(const Json& value, const std::string& pointer) {
+    [[nodiscard]] Json copy(const Json& value, const Json::json_pointer& pointer) {
         if (value.is_string()) return beginning_of(value.get_ref<const std::string&>(), kMostTextBytes);
         if (value.is_object()) {
             Json object = Json::object();
-            for (const auto& [key, one] : value.items()) object[key] = copy(one, pointer + "/" + pointer_token(key));
+            for (const auto& [key, one] : value.items()) object[key] = copy(one, pointer / key);
             return object;
         }
         if (!value.is_array() || stays_whole(value)) return value;
         Json list = Json::array();
-        if (value.size() > most_) left_out_.push_back({{"list", pointer}, {"items", value.size() - most_}});
-        for (std::size_t i = 0; i < std::min(value.size(), most_); ++i) list.push_back(copy(value[i], fmt::format("{}/{}", pointer, i)));
+        if (value.size() > most_) left_out_.push_back({{"list", pointer.to_string()}, {"items", value.size() - most_}});
+        for (std::size_t i = 0; i < std::min(value.size(), most_); ++i) list.push_back(copy(value[i], pointer / i));
         return list;
     }
 
@@ -86,7 +75,8 @@ Json bounded_report(Json report, std::size_t most_bytes) {
             if (const std::size_t size = to_text(one, true).size(); key != "left_out" && size > bytes) largest = key, bytes = size;
         if (bytes == 0) break;
         const Json& member = kept[largest];
-        kept["left_out"].push_back({{"list", "/" + pointer_token(largest)}, {"items", member.is_structured() ? member.size() : 1}});
+        kept["left_out"].push_back(
+            {{"list", (Json::json_pointer() / largest).to_string()}, {"items", member.is_structured() ? member.size() : 1}});
         kept.erase(largest);
     }
     return kept;
