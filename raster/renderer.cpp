@@ -70,7 +70,7 @@ void Renderer::Impl::make_surface(const PreparedData& scene, const RasterKernels
 
 TileCounts Renderer::Impl::draw_behind(const PicturePass& pass, const Execution& execution) {
     const Target target = behind.target(plan.picture, executor.stop());
-    PicturePass all = {pass.view, plan, Output(target, plan.picture.region), pass.reference, nullptr, plan.picture.region};
+    PicturePass all = {pass.view, plan, Output(target, plan.picture.region), pass.reference, nullptr, plan.picture.region, pass.layers};
     all.view.behind = true;
     Execution watched;
     if (execution.progress) watched.progress = [&](double done) { execution.progress(0.5 * done); };
@@ -135,12 +135,14 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     report.ms.transform += watch.lap();
 
     const TilePass surface_pass{geometry, surface, surface_materials, raster, shade, executor.stop()};
+    LayerBudget layers(settings.max_layers, target.width, target.height);
     const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, executor.stop(), plan.shading.shadow_offset},
                            plan,
                            output,
                            by_reference ? &reference : nullptr,
                            output.has_surface() ? &surface_pass : nullptr,
                            plan.written,
+                           layers,
                            only};
     TileCounts behind_counts;
     if (shades && plan.looks_through) behind_counts = draw_behind(pass, execution);

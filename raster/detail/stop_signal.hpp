@@ -30,6 +30,7 @@ public:
 
     /// Working memory that the call holds. Throws Stopped, without counting, beyond the limit.
     void take_memory(std::size_t bytes);
+    [[nodiscard]] std::size_t memory_limit() const { return memory_limit_; }  ///< of the call; 0: none
     [[nodiscard]] std::size_t memory() const { return memory_.load(std::memory_order_relaxed); }
     void give_memory(std::size_t bytes) { memory_.fetch_sub(bytes, std::memory_order_relaxed); }
 

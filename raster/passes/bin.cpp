@@ -44,7 +44,7 @@ public:
         chunk_.clip_vertices.clear();
         chunk_.pairs.clear();
         chunk_.listed = true;
-        chunk_.not_finite = 0;
+        chunk_.not_finite = chunk_.hidden = 0;
         chunk_.numbers.clear();
         chunk_.used = {};
         chunk_.material = chunk_.runs.empty() ? -1 : in_.draws[chunk_.runs[0].draw].material;

@@ -71,6 +71,7 @@ void PictureTile::blend_layers() {
 
 void PictureTile::blend_layers(const TileRect& part) {
     if (collect_layers(part)) {
+        pass_.layers.take(scratch_.layers->fragments.size());
         shade_layers();
         blend_pixels(part);
         return;
@@ -295,6 +296,7 @@ void PictureTile::blend_sample(int at, int sample) {
         });
         std::sort(kept.begin(), kept.end());
         layers.fragments.clear();
+        pass_.layers.take(sample == 0 ? kept.size() : 0);
         for (const Kept& layer : kept) layers.fragments.push_back({layer.id, static_cast<std::uint16_t>(at), 0});
         shade_layers();
         for (std::size_t i = 0; i < layers.light.size(); ++i) blend_fragment(i, at, sample);

@@ -8,7 +8,27 @@
 #include "raster/passes/tile.hpp"
 #include "raster/quality.hpp"
 
+#include <atomic>
+#include <string>
+
 namespace halflit::raster {
+
+/// The transparent surfaces that the pixels of a picture may have together (Settings::max_layers).
+class LayerBudget {
+public:
+    LayerBudget(int layers, int width, int height) : layers_(layers), left_(std::int64_t{layers} * width * height) {}
+    /// Counts fragments. Throws Stopped if the picture has too many: whatever their order, as all are counted.
+    void take(std::size_t fragments) {
+        const auto n = static_cast<std::int64_t>(fragments);
+        if (layers_ == 0 || left_.fetch_sub(n, std::memory_order_relaxed) >= n) return;
+        throw Stopped{{ErrorCode::limit, "the picture has more than " + std::to_string(layers_) +
+                                             " transparent surfaces on each of its pixels, in the mean, which is the limit"}};
+    }
+
+private:
+    int layers_;  ///< 0: no limit
+    std::atomic<std::int64_t> left_;
+};
 
 /// The picture as its tiles read it.
 struct PicturePass {
@@ -18,6 +38,7 @@ struct PicturePass {
     const ReferenceShading* reference;  ///< shades instead of the kernels; null: the kernels shade
     const TilePass* surface;            ///< reads what the planes of surfaces need; null: there are none
     Region written;                     ///< pixels of the output; the picture's region may be larger
+    LayerBudget& layers;
     const PixelMask* only = nullptr;    ///< if there is one, other pixels are not shaded, and what is written there has no meaning
 };
 

@@ -131,6 +131,8 @@ void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBloc
 /// Visibility: fills the buffers with the depth and triangle of each sample. Draws opaque triangles, and masked ones where they pass the
 /// alpha test. Leaves out blended ones.
 void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts);
+/// The same of opaque triangles alone, which needs no vertex records.
+void draw_opaque(const ViewGeometry& geometry, const RasterKernels& kernels, StopSignal& stop, int tile, TileScratch& scratch);
 
 /// Collects the samples of one triangle that are nearer than the tile's depth, as lists of fragments, and calls flush(list) for each list.
 /// The caller must call clear_coverage with the returned box when it is done with the triangle.

@@ -1,6 +1,7 @@
 #include "raster/passes/used_vertices.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace halflit::raster {
@@ -50,9 +51,9 @@ void pad_to_four(UsedVertices& used) {
     }
 }
 
-}  // namespace
-
-void copy_used_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenVertex* screen) {
+/// base_of(draw): the number of the draw's first vertex where records have theirs from. copy(draw, v): appends the vertex base + v.
+template <class BaseOf, class Copy>
+void copy_vertices(Chunk& chunk, std::span<const Draw> draws, const BaseOf& base_of, const Copy& copy) {
     UsedVertices& used = chunk.used;
     NumberSet units;  // vertices, or quads of four
     auto clip = chunk.clip_vertices.begin();
@@ -68,8 +69,7 @@ void copy_used_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenV
                 for (std::uint32_t& v : c->parent) use(v);
         };
         const Draw& draw = draws[number];
-        const auto base = static_cast<std::uint32_t>(draw.vertex_base);
-        const std::uint32_t shift = draw.quads() ? 2 : 0;
+        const std::uint32_t base = base_of(draw), shift = draw.quads() ? 2 : 0;
         units.clear();
         for_each_vertex([&](std::uint32_t v) { units.add((v - base) >> shift); });
         units.sort();
@@ -77,10 +77,7 @@ void copy_used_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenV
         const auto start = static_cast<std::uint32_t>(used.screen.size());
         used.parts.push_back({number, start});
         for (const std::uint32_t unit : units.numbers())
-            for (std::uint32_t v = unit << shift; v < (unit + 1) << shift; ++v) {
-                used.screen.push_back(screen[base + v]);
-                used.mesh_vertex.push_back(v >> draw.vertex_shift());
-            }
+            for (std::uint32_t v = unit << shift; v < (unit + 1) << shift; ++v) copy(draw, v);
         for_each_vertex([&](std::uint32_t& v) {
             const std::uint32_t old = v - base, unit = old >> shift;
             v = start + (units.place(unit) << shift) + (old - (unit << shift));
@@ -88,6 +85,27 @@ void copy_used_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenV
         first = last, clip = clip_last;
     }
     pad_to_four(used);
+}
+
+}  // namespace
+
+void copy_used_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenVertex* screen) {
+    copy_vertices(
+        chunk, draws, [](const Draw& draw) { return static_cast<std::uint32_t>(draw.vertex_base); },
+        [&](const Draw& draw, std::uint32_t v) {
+            chunk.used.screen.push_back(screen[draw.vertex_base + v]);
+            chunk.used.mesh_vertex.push_back(v >> draw.vertex_shift());
+        });
+}
+
+void drop_unused_vertices(Chunk& chunk, std::span<const Draw> draws) {
+    const UsedVertices before = std::exchange(chunk.used, {});
+    copy_vertices(
+        chunk, draws, [](const Draw&) { return 0u; },
+        [&](const Draw&, std::uint32_t v) {
+            chunk.used.screen.push_back(before.screen[v]);
+            chunk.used.mesh_vertex.push_back(before.mesh_vertex[v]);
+        });
 }
 
 }  // namespace halflit::raster

@@ -8,6 +8,13 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::int64_t kMostVertices = kClipVertex;
+/// Bytes of all triangles in the lists of a view, some seven millions of them, and their share of the memory that a call may take. Beyond
+/// it those that are hidden are dropped.
+constexpr std::size_t kTriangleBudget = std::size_t{256} << 20, kShareOfMemory = 4;
+
+std::size_t triangle_budget(const StopSignal& call) {
+    return call.memory_limit() == 0 ? kTriangleBudget : std::min(kTriangleBudget, call.memory_limit() / kShareOfMemory);
+}
 
 tl::unexpected<Error> fail_too_many_vertices() { return fail(ErrorCode::limit, "more than 2^31 vertices in view"); }
 
@@ -36,10 +43,18 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     times_ms_.cull = watch.lap();
     for (const Batch& batch : batches_)
         if (batch.vertex_count >= kMostVertices) return fail_too_many_vertices();
+    const std::size_t budget = triangle_budget(executor.stop());
+    std::size_t held = 0, most = budget;
     for (const Batch& batch : batches_) {
         transform(batch, kernels, executor);
         times_ms_.transform += watch.lap();
         bin(batch, kernels, executor);
+        if (has_only_used_vertices()) held += bytes_of_chunks(batch.first_chunk, batch.end_chunk);
+        if (held > most) {
+            drop_hidden(batch.end_chunk, kernels, executor);
+            held = bytes_of_chunks(0, batch.end_chunk);
+            most = std::max(budget, 2 * held);
+        }
         times_ms_.bin += watch.lap();
     }
     if (has_only_used_vertices())
@@ -97,10 +112,29 @@ Result<void> ViewGeometry::number_used_vertices(Executor& executor) {
     return {};
 }
 
+namespace {
+
+template <class SizeOf>
+std::size_t bytes_of(const Chunk& chunk, const SizeOf& size) {
+    return size(chunk.runs) + size(chunk.records) + size(chunk.numbers) + size(chunk.clip_screen) + size(chunk.clip_vertices) +
+           size(chunk.pairs) + size(chunk.tile_begin) + size(chunk.tile_list) + size(chunk.used.parts) + size(chunk.used.screen) +
+           size(chunk.used.mesh_vertex);
+}
+
+}  // namespace
+
 std::size_t Chunk::bytes() const {
-    const auto size = [](const auto& list) { return list.capacity() * sizeof list[0]; };
-    return size(runs) + size(records) + size(numbers) + size(clip_screen) + size(clip_vertices) + size(pairs) + size(tile_begin) +
-           size(tile_list) + size(used.parts) + size(used.screen) + size(used.mesh_vertex);
+    return bytes_of(*this, [](const auto& list) { return list.capacity() * sizeof list[0]; });
+}
+
+std::size_t Chunk::bytes_used() const {
+    return bytes_of(*this, [](const auto& list) { return list.size() * sizeof list[0]; });
+}
+
+std::size_t ViewGeometry::bytes_of_chunks(std::size_t first, std::size_t end) const {
+    std::size_t sum = 0;
+    for (std::size_t c = first; c < end; ++c) sum += chunks_[c]->bytes_used();
+    return sum;
 }
 
 void Chunk::drop_lists() {
@@ -118,7 +152,7 @@ bool ViewGeometry::tile_is_empty(int tile) const {
 
 std::uint64_t ViewGeometry::triangles_drawn() const {
     std::uint64_t sum = 0;
-    for (const std::unique_ptr<Chunk>& chunk : chunks()) sum += chunk->records.size();
+    for (const std::unique_ptr<Chunk>& chunk : chunks()) sum += chunk->records.size() + chunk->hidden;
     return sum;
 }
 

@@ -5,7 +5,8 @@
 // allocates nothing.
 //
 // Views of many vertices are transformed and binned in batches, from draw to draw, and keep only the vertices that their triangles use
-// (used_vertices.hpp): an instance takes some bytes of a file and could take megabytes of memory.
+// (used_vertices.hpp): an instance takes some bytes of a file and could take megabytes of memory. Whenever the triangles of the batches
+// take more than a budget, those that no sample shows are dropped (hidden_triangles.cpp): the others are no more than there are samples.
 #pragma once
 
 #include "halflit/material.hpp"
@@ -89,10 +90,12 @@ struct Chunk {
     int material = -1;             ///< of all its triangles; -1: they have several
     bool listed = true;            ///< false: too many entries, so there are no lists
     std::uint64_t not_finite = 0;  ///< triangles dropped for a NaN or infinite vertex
+    std::uint64_t hidden = 0;      ///< triangles dropped because no sample shows them
     UsedVertices used;             ///< only while a view is made in batches
     MemoryShare memory;
 
     [[nodiscard]] std::size_t bytes() const;  ///< memory of all lists
+    [[nodiscard]] std::size_t bytes_used() const;  ///< the same without what they hold in reserve
     void drop_lists();
     /// Only if `listed`.
     [[nodiscard]] std::span<const std::uint32_t> tile(int number) const {
@@ -180,6 +183,10 @@ private:
     void cull_clusters(Executor& executor);
     void transform(const Batch& batch, const RasterKernels& kernels, Executor& executor);
     void bin(const Batch& batch, const RasterKernels& kernels, Executor& executor);
+    /// Drops triangles of the first chunks that no sample of the view shows.
+    void drop_hidden(std::size_t chunks, const RasterKernels& kernels, Executor& executor);
+    /// Bytes of the lists of chunks, without what vectors hold in reserve: the same for each number of threads.
+    [[nodiscard]] std::size_t bytes_of_chunks(std::size_t first, std::size_t end) const;
     Result<void> number_used_vertices(Executor& executor);
     Result<void> list_sources();
 

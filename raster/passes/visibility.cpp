@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace halflit::raster {
 namespace {
@@ -12,7 +13,9 @@ namespace {
 /// less than a hundred in a tile, and prefetching and side by side set-up need longer lists.
 class OpaqueTriangles {
 public:
-    OpaqueTriangles(const TilePass& pass, const TileRect& rect, TileScratch& scratch) : pass_(pass), rect_(rect), scratch_(scratch) {}
+    using Kernel = decltype(RasterKernels::rasterize);
+    OpaqueTriangles(const ViewGeometry& geometry, Kernel rasterize, StopSignal& stop, const TileRect& rect, TileScratch& scratch)
+        : geometry_(geometry), rasterize_(rasterize), stop_(stop), rect_(rect), scratch_(scratch) {}
 
     void add(std::uint32_t id_base, std::span<const std::uint32_t> records) {
         while (!records.empty()) {
@@ -25,18 +28,56 @@ public:
     }
     void draw() {
         if (count_ == 0) return;
-        pass_.stop.check();
-        (pass_.depth_only ? pass_.raster.rasterize_depth : pass_.raster.rasterize)(
-            rect_, pass_.geometry.view().samples, scratch_.buffers, pass_.geometry.table(), scratch_.opaque, static_cast<int>(count_));
+        stop_.check();
+        rasterize_(rect_, geometry_.view().samples, scratch_.buffers, geometry_.table(), scratch_.opaque, static_cast<int>(count_));
         count_ = 0;
     }
 
 private:
-    const TilePass& pass_;
+    const ViewGeometry& geometry_;
+    Kernel rasterize_;
+    StopSignal& stop_;
     const TileRect& rect_;
     TileScratch& scratch_;
     std::size_t count_ = 0;
 };
+
+/// Adds a tile's opaque triangles of one chunk, and calls visit(record) for each other one, in submission order.
+template <class Visit>
+void add_list(OpaqueTriangles& opaque, const ViewGeometry& geometry, const TriangleSource& source, std::span<const std::uint32_t> list,
+              bool all_opaque, const Visit& visit) {
+    if (all_opaque) {
+        opaque.add(source.id_base, list);
+        return;
+    }
+    const auto is_opaque = [&](std::size_t i) { return geometry.draw_of(source.records[list[i]]).alpha_mode == AlphaMode::opaque; };
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        std::size_t run = i;
+        while (run < list.size() && is_opaque(run)) ++run;
+        opaque.add(source.id_base, list.subspan(i, run - i));
+        if (run < list.size()) visit(list[run]);
+        i = run;
+    }
+}
+
+void clear_tile(const TileRect& rect, int samples, bool depth_only, TileBuffers& buffers) {
+    const std::size_t used = static_cast<std::size_t>(rect.height) * kTileStride;
+    for (int s = 0; s < samples; ++s) {
+        std::memset(buffers.depth[s], 0, used * sizeof(float));
+        if (!depth_only) std::memset(buffers.triangle[s], 0xff, used * sizeof(std::uint32_t));
+    }
+}
+
+/// Of a tile's samples; 0 if one of them shows nothing.
+float farthest_depth(const TileRect& rect, int samples, const TileBuffers& buffers) {
+    float least = 1.0f;
+    for (int s = 0; s < samples; ++s)
+        for (int y = 0; y < rect.height; ++y)
+            for (int x = 0; x < rect.width; ++x) least = std::min(least, buffers.depth[s][y * kTileStride + x]);
+    return least;
+}
+
+bool is_all_opaque(const ViewGeometry& geometry) { return !geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend); }
 
 /// True if the samples of a pixel may have different alpha: a texture gives it.
 bool tests_samples(const TilePass& pass, const shading::MaterialPlan& material) {
@@ -132,37 +173,51 @@ void clear_coverage(TileScratch& scratch, const CoverBox& box) {
 
 void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts) {
     const ViewGeometry& geometry = pass.geometry;
-    const SamplePattern& samples = geometry.view().samples;
     const TileRect rect = geometry.view().tile_rect(tile);
-    TileBuffers& buffers = scratch.buffers;
-    const std::size_t used = static_cast<std::size_t>(rect.height) * kTileStride;
-    for (int s = 0; s < samples.count; ++s) {
-        std::memset(buffers.depth[s], 0, used * sizeof(float));
-        if (!pass.depth_only) std::memset(buffers.triangle[s], 0xff, used * sizeof(std::uint32_t));
-    }
-    const bool all_opaque = !geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend);
-    const auto chunks = geometry.chunks();
-    OpaqueTriangles opaque(pass, rect, scratch);
-    for (std::size_t c = 0; c < chunks.size(); ++c) {
-        const std::span<const std::uint32_t> list = geometry.tile_list(c, tile, scratch.tile_list);
+    clear_tile(rect, geometry.view().samples.count, pass.depth_only, scratch.buffers);
+    const bool all_opaque = is_all_opaque(geometry);
+    OpaqueTriangles opaque(geometry, pass.depth_only ? pass.raster.rasterize_depth : pass.raster.rasterize, pass.stop, rect, scratch);
+    for (std::size_t c = 0; c < geometry.chunks().size(); ++c) {
         const TriangleSource& source = geometry.source(c);
-        if (all_opaque) {
-            opaque.add(source.id_base, list);
-            continue;
-        }
-        // Masked triangles are tested one by one, after the opaque ones before them.
-        const auto mode = [&](std::size_t i) { return geometry.draw_of(source.records[list[i]]).alpha_mode; };
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            std::size_t run = i;
-            while (run < list.size() && mode(run) == AlphaMode::opaque) ++run;
-            opaque.add(source.id_base, list.subspan(i, run - i));
-            if (run < list.size() && mode(run) == AlphaMode::mask) {
-                opaque.draw();
-                pass.stop.check();
-                draw_masked(pass, rect, c, list[run], scratch, counts);
+        add_list(opaque, geometry, source, geometry.tile_list(c, tile, scratch.tile_list), all_opaque, [&](std::uint32_t record) {
+            // Masked triangles are tested one by one, after the opaque ones before them.
+            if (geometry.draw_of(source.records[record]).alpha_mode != AlphaMode::mask) return;
+            opaque.draw();
+            pass.stop.check();
+            draw_masked(pass, rect, c, record, scratch, counts);
+        });
+    }
+    opaque.draw();
+}
+
+void draw_opaque(const ViewGeometry& geometry, const RasterKernels& kernels, StopSignal& stop, int tile, TileScratch& scratch) {
+    constexpr std::size_t kTrianglesBetweenLooks = 4096;
+    const TileRect rect = geometry.view().tile_rect(tile);
+    const int samples = geometry.view().samples.count;
+    clear_tile(rect, samples, false, scratch.buffers);
+    OpaqueTriangles opaque(geometry, kernels.rasterize, stop, rect, scratch);
+    std::vector<std::uint32_t> nearer;
+    std::size_t since_look = 0;
+    float farthest = 0.0f;  // depth that all samples have at least
+    for (std::size_t c = 0; c < geometry.chunks().size(); ++c) {
+        const TriangleSource& source = geometry.source(c);
+        std::span<const std::uint32_t> list = geometry.tile_list(c, tile, scratch.tile_list);
+        if (farthest > 0.0f) {
+            // A triangle's depths lie within those of its vertices.
+            nearer.clear();
+            for (const std::uint32_t record : list) {
+                const std::uint32_t(&v)[3] = source.records[record].vertex;
+                if (std::max({vertex_of(source, v[0]).z, vertex_of(source, v[1]).z, vertex_of(source, v[2]).z}) > farthest)
+                    nearer.push_back(record);
             }
-            i = run;
+            list = nearer;
         }
+        add_list(opaque, geometry, source, list, is_all_opaque(geometry), [](std::uint32_t) {});
+        since_look += list.size();
+        if (since_look < kTrianglesBetweenLooks) continue;
+        since_look = 0;
+        opaque.draw();
+        farthest = farthest_depth(rect, samples, scratch.buffers);
     }
     opaque.draw();
 }

@@ -61,6 +61,11 @@ struct Extent {
     Point at_low{}, at_high{};          ///< the points that they are of
 
     [[nodiscard]] bool has(double y, double z) const { return low >= y + tangent * z && high <= y - tangent * z; }
+    /// The same of all points within a distance of (y, z).
+    [[nodiscard]] bool has_ball(double y, double z, double radius) const {
+        const double most = radius * std::sqrt(1.0 + tangent * tangent);
+        return low >= y + tangent * z + most && high <= y - tangent * z - most;
+    }
     void add(double y, double z) {
         if (y + tangent * z > low) low = y + tangent * z, at_low = {y, z};
         if (y - tangent * z < high) high = y - tangent * z, at_high = {y, z};
@@ -112,6 +117,14 @@ public:
     [[nodiscard]] bool has(Vec3d p) const {
         const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
         return x_.has(x, z) && y_.has(y, z) && front_ >= z && (!view_.orthographic || (wide_.has(x) && tall_.has(y) && back_ <= z));
+    }
+
+    /// The same of all points within a distance of p.
+    [[nodiscard]] bool has_ball(Vec3d p, double radius) const {
+        const double x = dot(p, axes_.right), y = dot(p, axes_.up), z = dot(p, axes_.back);
+        const auto has = [radius](const Span& span, double at) { return span.has(at - radius) && span.has(at + radius); };
+        return x_.has_ball(x, z, radius) && y_.has_ball(y, z, radius) && front_ >= z + radius &&
+               (!view_.orthographic || (has(wide_, x) && has(tall_, y) && back_ <= z - radius));
     }
 
     /// Adds a point, given relative to the origin.
@@ -214,10 +227,31 @@ private:
     double distance_ = 0.0;  // of the eye along `back`, from the origin
 };
 
-/// True if no vertex of the instance can change the fit, judged by its box. In scenes of many instances few are at the rim.
+/// A factor on lengths in a placed object, at least the largest one.
+double largest_scale(const Mat4& world_from_object) {
+    const auto column_of = [&](int k) { return Vec3d{world_from_object.c[k].x, world_from_object.c[k].y, world_from_object.c[k].z}; };
+    const Vec3d axis[3] = {column_of(0), column_of(1), column_of(2)};
+    // The square of the largest is the largest eigenvalue of a matrix, which is no larger than a sum over a row.
+    double most = 0.0;
+    for (const Vec3d& a : axis) {
+        double sum = 0.0;
+        for (const Vec3d& b : axis) sum += magnitude(dot(a, b));
+        most = larger(most, sum);
+    }
+    return std::sqrt(most);
+}
+
+/// True if no vertex of the instance can change the fit, judged by its box, or by a ball around it. In scenes of many instances few are at
+/// the rim. radius: of that ball, object space; negative: not known.
 template <class Fit>
-bool is_seen_already(const Fit& fit, const FramedVertices& used, const Mat4& world_from_object, Vec3d center) {
+bool is_seen_already(const Fit& fit, const FramedVertices& used, double radius, const Mat4& world_from_object, Vec3d center) {
     if (used.bounds.empty) return true;
+    if (radius >= 0.0) {
+        const Vec3d middle = to_double(transform_point(world_from_object, used.bounds.center()));
+        // Points are rounded to float32.
+        const double slack = 1e-6 * (length(middle) + length(to_double(used.bounds.center())) * largest_scale(world_from_object));
+        if (fit.has_ball(middle - center, (1.0 + 1e-6) * largest_scale(world_from_object) * radius + slack)) return true;
+    }
     const Vec3f &low = used.bounds.min, &high = used.bounds.max;
     const PlacedBox box({low.x, low.y, low.z}, {high.x, high.y, high.z}, world_from_object);
     for (int k = 0; k < 8; ++k) {
@@ -231,6 +265,7 @@ bool is_seen_already(const Fit& fit, const FramedVertices& used, const Mat4& wor
 class Ball {
 public:
     [[nodiscard]] bool has(Vec3d p) const { return dot(p, p) <= squared_; }
+    [[nodiscard]] bool has_ball(Vec3d p, double radius) const { return length(p) + radius <= std::sqrt(squared_) * (1.0 - 1e-12); }
     void add(Vec3d p) { squared_ = larger(squared_, dot(p, p)); }
     [[nodiscard]] double radius() const { return std::sqrt(squared_); }
 
@@ -244,6 +279,7 @@ public:
     FramedPoints(const Scene& scene, const Bounds& bounds) : scene_(&scene), part_(framed_part(scene)) {
         const Bounds& framed = part_.whole ? bounds : part_.bounds;
         box_ = usable_box(framed);
+        measure_balls();
         by_box_ = framed.empty || !(framed.radius() > 1e-5 * length(box_.center)) || !(framed.radius() < kMaxCoordinate);
     }
     explicit FramedPoints(const Bounds& bounds) : box_(usable_box(bounds)) {}
@@ -262,7 +298,7 @@ public:
             const Instance& instance = scene_->instances[static_cast<std::size_t>(i)];
             const Mesh& mesh = scene_->meshes[static_cast<std::size_t>(instance.mesh)];
             const FramedVertices& vertices = part_.meshes[static_cast<std::size_t>(instance.mesh)];
-            if (is_seen_already(fit, vertices, instance.world_from_object, box_.center)) continue;
+            if (is_seen_already(fit, vertices, radii_[static_cast<std::size_t>(instance.mesh)], instance.world_from_object, box_.center)) continue;
             for (const std::uint32_t v : vertices.vertices) {
                 check();
                 const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
@@ -272,8 +308,28 @@ public:
     }
 
 private:
+    /// Of meshes that several instances have.
+    void measure_balls() {
+        std::vector<int> instances(scene_->meshes.size());
+        for (const int i : part_.instances) ++instances[static_cast<std::size_t>(scene_->instances[static_cast<std::size_t>(i)].mesh)];
+        radii_.assign(scene_->meshes.size(), -1.0);
+        TimeCheck check;
+        for (std::size_t m = 0; m < radii_.size(); ++m) {
+            if (instances[m] < 2 || part_.meshes[m].bounds.empty) continue;
+            const Vec3d center = to_double(part_.meshes[m].bounds.center());
+            double squared = 0.0;
+            for (const std::uint32_t v : part_.meshes[m].vertices) {
+                check();
+                const Vec3d p = to_double(scene_->meshes[m].positions[v]) - center;
+                if (finite(scene_->meshes[m].positions[v])) squared = larger(squared, dot(p, p));
+            }
+            radii_[m] = std::sqrt(squared);
+        }
+    }
+
     const Scene* scene_ = nullptr;
     FramedPart part_;
+    std::vector<double> radii_;  ///< of each mesh, a ball around the middle of its bounds; negative: not known
     Box box_;
     bool by_box_ = true;
 };

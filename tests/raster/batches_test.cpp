@@ -53,17 +53,38 @@ void add_vertices(Scene& scene) {
     scene.instances = std::move(instances);
 }
 
-/// True if the scene's view is made in batches.
-bool is_in_batches(const Shot& shot) {
+/// Balls of 100,000 triangles each among the others, some of them masks and layers.
+void add_balls(Random& random, Scene& scene, int count) {
+    const int mesh = static_cast<int>(scene.meshes.size());
+    scene.meshes.push_back(make_sphere_of(1.0f, 100'000));
+    for (int i = 0; i < count; ++i) {
+        Mat4 place;
+        place.c[3] = {random.real32(-2, 2), random.real32(-2, 2), random.real32(-2, 2), 1};
+        scene.instances.push_back({mesh, place});
+        scene.instances.back().material = i % 8 < 6 ? 0 : random.index(static_cast<int>(scene.materials.size()));
+    }
+}
+
+struct MadeView {
+    bool in_batches;
+    std::uint64_t drawn, kept;  ///< triangles
+};
+
+MadeView made_view(const Shot& shot, const Execution& execution = {.threads = 1}) {
     const auto prepared = PreparedScene::make(shot.scene);
     REQUIRE(prepared);
     Executor executor;
-    executor.configure({.threads = 1});
+    executor.configure(execution);
     ViewGeometry geometry;
     const View view = make_view(shot.camera, kViewWidth, kViewHeight, {0, 0, kViewWidth, kViewHeight}, 64, shot.settings.samples);
     REQUIRE(geometry.make(prepared->data(), view, raster_kernels(Isa::scalar), executor));
-    return geometry.has_only_used_vertices();
+    MadeView made{geometry.has_only_used_vertices(), geometry.triangles_drawn(), 0};
+    for (const auto& chunk : geometry.chunks()) made.kept += chunk->records.size();
+    return made;
 }
+
+/// True if the scene's view is made in batches.
+bool is_in_batches(const Shot& shot) { return made_view(shot).in_batches; }
 
 /// The planes `barycentric` and `uv` of a shot.
 std::vector<float> points_of(const Shot& shot, Renderer& renderer, const Execution& execution) {
@@ -120,4 +141,32 @@ TEST_CASE("batches: triangles of a smooth mesh are joined across the parts that 
     const Pixels many = draw(shot);
     CHECK(differing(few, many) == 0);
     CHECK(few.fragments == many.fragments);
+}
+
+TEST_CASE("batches: with little memory hidden triangles are dropped on the way, and no pixel, plane or count shows it",
+          "[raster][batches]") {
+    const auto isas = halflit::test::available_isas();
+    std::uint64_t dropping = 0;
+    constexpr std::uint64_t kScenes = 6;
+    for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+        Random random(seed + 4321);
+        Shot shot = any_shot(seed);
+        add_odd_things(random, shot);
+        add_balls(random, shot.scene, 40);
+        const Isa isa = isas[static_cast<std::size_t>(random.index(static_cast<int>(isas.size())))];
+        const Execution much = execution_of(1 + static_cast<int>(seed % 2), 64, isa);
+        Execution little = much;
+        little.memory_limit = std::size_t{160} << 20;
+        INFO("seed " << seed << ", " << isa_name(isa));
+        Renderer renderer, other;
+        const Pixels all = draw(shot, renderer, much), few = draw(shot, other, little);
+        CHECK(differing(all, few) == 0);
+        CHECK(all.fragments == few.fragments);
+        if (shot.settings.region.width == 0) CHECK(points_of(shot, renderer, much) == points_of(shot, other, little));
+        const MadeView whole = made_view(shot), made = made_view(shot, little);
+        CHECK(whole.kept == whole.drawn);
+        CHECK(made.drawn == whole.drawn);
+        dropping += made.kept < whole.kept ? 1 : 0;
+    }
+    CHECK(dropping >= kScenes / 2);
 }

@@ -70,6 +70,7 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "hidden_edges": ("hidden_edges", "HIDDEN_EDGES"),
     "edge_angle_deg": ("edge_angle_deg", "float"),
     "edge_width": ("edge_width", "float"),
+    "max_layers": ("max_layers", "int"),
 }
 #: Keywords that have an effect only if another one is not "none" or "off". 0 of a shadow's is its default, as measure() returns it.
 _PARTS = {

@@ -619,7 +619,10 @@ typedef struct halflit_settings {
     float edge_width;
     /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)
     float edge_color[3];
-    int32_t reserved[2];  ///< 0
+    /// Transparent surfaces on each pixel, in the mean over all pixels of the picture, 1 to 2^20: a small file can have millions.
+    /// More end the call (ErrorCode::limit). 0: no limit. (128)
+    int32_t max_layers;
+    int32_t reserved[1];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 
