@@ -1,10 +1,16 @@
 """What shows pictures to people: sheets of several, notebooks, bars."""
 import base64
 import contextlib
+import html.parser
 import importlib.util
 import io
+import json
+import os
 import re
+import shutil
+import subprocess
 import sys
+import tempfile
 import types
 import unittest
 import unittest.mock
@@ -77,6 +83,100 @@ class Notebooks(unittest.TestCase):
         self.assertIn(f"32 x 20, uint8; camera at ({eye}), looking along", text)
         self.assertNotIn("camera at", picture[:8]._repr_html_())
         self.assertIsNone(picture[0]._repr_html_())
+
+    def test_a_scene_shows_its_picture_and_tells_the_camera(self):
+        scene = halflit.Scene.demo()
+        shown = scene._repr_mimebundle_()
+        picture = scene.render((512, 512))
+        self.assertEqual(shown, {"text/html": picture._repr_html_(), "image/png": picture.to_png()})
+        self.assertEqual((scene._repr_html_(), scene._repr_png_()), (shown["text/html"], shown["image/png"]))
+        self.assertIn("camera at", shown["text/html"])
+
+
+class Page(html.parser.HTMLParser):
+    """The elements of a page, and its script."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.elements, self.open, self.script = [], [], ""
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.elements.append((tag, dict(attributes)))
+        if tag not in ("meta", "img"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] == "script":
+            self.script += data
+
+
+class Turntables(unittest.TestCase):
+    def test_its_frames_are_the_pictures_of_its_views(self):
+        scene = halflit.Scene.demo()
+        table = scene.turntable((48, 32), azimuths=3, elevations=(40, 0), samples=1)
+        views = [(35 + 120 * i, elevation) for elevation in (0, 40) for i in range(3)]
+        self.assertEqual(list(table.frames), views)
+        pictures = scene.render_views(views, (48, 32), samples=1)
+        self.assertEqual([table.frames[view] for view in views], [pictures[view].to_png() for view in views])
+        self.assertEqual(table._repr_png_(), table.frames[35, 0])  # of the two, 0 comes first: both are 20 degrees off
+
+    def test_the_page_holds_all_frames_and_refers_to_nothing(self):
+        table = halflit.Scene.demo().turntable(64, azimuths=4, samples=1)
+        page = Page(table.html)
+        self.assertEqual(page.open, [])
+        frames = json.loads(re.search(r"const frames = (\[.*?\])", page.script).group(1))
+        self.assertEqual([base64.b64decode(frame) for frame in frames], list(table.frames.values()))
+        for tag, attributes in page.elements:
+            for name in {"src", "href", "srcset"} & set(attributes):
+                self.assertRegex(attributes[name], "^data:image/png;base64,", tag)
+        self.assertNotRegex(page.script, "https?:|fetch|import")
+        # Base64 is 4/3 of the frames; the first one is there twice, and the rest is text.
+        size = sum(map(len, table.frames.values()))
+        self.assertLess(len(table.html), 4 / 3 * (size + max(map(len, table.frames.values()))) + 4096)
+        ((tag, attributes),) = Page(table._repr_html_()).elements
+        self.assertEqual((tag, attributes["srcdoc"], attributes["sandbox"]), ("iframe", table.html, "allow-scripts"))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "turn.html")
+            table.save(path)
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(file.read(), table.html)
+
+    @unittest.skipUnless(shutil.which("node"), "no Node.js")
+    def test_a_drag_over_the_width_turns_it_by_half_a_circle(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "turn.html")
+            halflit.Scene.demo().turntable((160, 120), azimuths=8, samples=1).save(path)
+            check = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "web", "turntable_check.mjs")
+            done = subprocess.run(["node", check, path, "160", "120"], stdout=subprocess.PIPE, timeout=300, check=False)
+        if done.returncode == 77:
+            self.skipTest("no Chromium")
+        self.assertEqual(done.returncode, 0)
+        # Rows of 8 frames, from the lowest up; the middle one is first. A quarter of the width is an eighth of a circle, one frame: what
+        # is in front follows the pointer, so the camera goes the other way.
+        expected = {"first": 8, "left": 9, "right": 15, "down": 16, "up": 0}
+        expected.update({f"finger_{name}": frame for name, frame in expected.items() if name != "first"}, left_and_key=8)
+        self.assertEqual(json.loads(done.stdout), expected)
+
+    def test_what_is_wrong_is_named(self):
+        scene = halflit.Scene.demo()
+        for options, said in (
+            ({"azimuths": 0}, "azimuths: expected"),
+            ({"azimuths": 1000}, "azimuths: expected at most 2000 views, found 3000"),
+            ({"elevations": 20}, "elevations: expected a list"),
+            ({"elevations": []}, "elevations: expected angles"),
+            ({"elevations": [91]}, "elevations: expected angles"),
+            ({"azimuth": float("nan")}, "azimuth: expected a finite number"),
+            ({"format": "gif"}, "format: expected 'png', 'jpg' or 'webp', found 'gif'"),
+            ({"format": []}, "format: expected"),
+            ({"light": "x"}, "light: expected"),
+        ):
+            with self.assertRaisesRegex(halflit.UsageError, said):
+                scene.turntable(16, **options)
 
 
 class Bars(unittest.TestCase):

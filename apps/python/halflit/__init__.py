@@ -22,6 +22,7 @@ from ._picture_options import PictureOptions
 from ._render import render, render_meshes
 from ._scene import Scene
 from ._setup import Setup
+from ._turntable import Turntable
 
 if TYPE_CHECKING:
     from ._picture import Picture as Picture
@@ -45,6 +46,7 @@ __all__ = [
     "Scene",
     "Setup",
     "TextureUse",
+    "Turntable",
     "UsageError",
     "contact_sheet",
     "pixel_epoch",

@@ -56,6 +56,12 @@ def frames(scene: Any, views: List[Any], size: Any, is_fixed: bool, options: Dic
 
 def draw_views(scene: Any, views: List[Any], size: Any, light: str, options: Dict[Any, Any]) -> Dict[Any, Picture]:
     """The pictures of render_views(), by their views."""
+    names = [tuple(view) if isinstance(view, list) else view for view in views]
+    return dict(zip(names, view_frames(scene, views, size, light, options)))
+
+
+def view_frames(scene: Any, views: List[Any], size: Any, light: str, options: Dict[Any, Any]) -> Iterator[Picture]:
+    """The same, each drawn when it is asked for."""
     lens = {name: options.pop(name) for name in ("zoom", "fov", "orthographic", "fit") if name in options}
     check_names(options, [name for name in KNOWN if name not in (*VIEW[: VIEW.index("exposure")], "out")], "render_views")
     if not views:
@@ -63,8 +69,7 @@ def draw_views(scene: Any, views: List[Any], size: Any, light: str, options: Dic
     size = USUAL_SIZE if size is None else checked_size(size)
     with scene._lock:
         cameras = [scene._world.out(camera) for camera in drawn_views(scene, views, size, lens)]
-    names = [tuple(view) if isinstance(view, list) else view for view in views]
-    return dict(zip(names, draw_batch(scene, cameras, size, light, options)))
+    return draw_batch(scene, cameras, size, light, options)
 
 
 def view_of(camera: Any) -> Dict[str, Any]:

@@ -15,6 +15,7 @@ from ._lazy_picture import pictures
 from ._lighting import Lighting
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
+from ._turntable import Turntable
 from ._types import Array, Size, Unpack
 from ._values import finite, listed, truth, up_axis, whole
 from ._world import World
@@ -273,6 +274,28 @@ class Scene(Geometry, Lighting):
 
         return draw_views(self, listed(views, "views", "a list of names, or of (azimuth, elevation)"), size, light, dict(options))
 
+    def turntable(
+        self,
+        size: Size = 256,
+        *,
+        azimuths: int = 24,
+        elevations: Sequence[float] = (-15, 20, 55),
+        light: str = "viewer",
+        format: str = "png",
+        **options: Unpack[PictureOptions],
+    ) -> Turntable:
+        """A view that is turned by dragging: notebooks show it, without a network, and save() writes it as a page.
+
+        It draws the whole scene from azimuths x elevations sides, by one distance and one scale, and shows the nearest. azimuths: number of
+        them around the circle, evenly, beginning with `azimuth` (35 degrees). elevations: degrees above the horizon. format: of the
+        pictures: "png" (exact), "webp" (exact, smaller, slow) or "jpg". The other keywords are those of render_views().
+
+            scene.turntable(320, background="#ffffff").save("model.html")
+        """
+        from ._turntable import turntable
+
+        return turntable(self, size, azimuths, elevations, light, format, dict(options))
+
     def motion(self, picture: pictures.Picture, camera: Camera, scene: Optional[Scene] = None) -> Array:
         """How far each point that a picture of this scene shows moves to the picture by another camera: float32 (height, width, 2), pixels,
         x to the right, y down. 0 where nothing is, and for points that are not before both cameras.
@@ -312,6 +335,15 @@ class Scene(Geometry, Lighting):
         with self._lock:
             return measure(self, size, quality, known, dict(options))
 
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Dict[str, Any]:
+        """What Jupyter shows: the scene in 512 x 512 pixels, and the camera as a text. turntable() gives a view that turns."""
+        picture = self.render((512, 512))
+        return {"text/html": picture._repr_html_(), "image/png": picture._repr_png_()}
+
+    def _repr_html_(self) -> Optional[str]:
+        """For notebooks that ask for one kind alone."""
+        return self.render((512, 512))._repr_html_()
+
     def _repr_png_(self) -> Optional[bytes]:
-        """What Jupyter shows: the scene in 512 x 512 pixels."""
+        """Likewise."""
         return self.render((512, 512))._repr_png_()
