@@ -184,10 +184,29 @@ class Meshes(unittest.TestCase):
         drawn = halflit.render_meshes([*meshes(2), (CORNERS, FACES + 8)], 16, threads=1)
         self.assertEqual(next(drawn).shape, (16, 16, 4))
         next(drawn)
-        with self.assertRaisesRegex(halflit.UsageError, "faces: vertex 15"):
+        with self.assertRaisesRegex(halflit.UsageError, "mesh 2: faces: vertex 15"):
             next(drawn)
         with self.assertRaisesRegex(TypeError, "no keyword 'camera'"):
             halflit.render_meshes([], 16, camera=np.eye(4))
+
+    def test_what_is_no_mesh_is_named(self):
+        (corners, faces), *_ = meshes(1)
+        for given, said in (
+            ([3], "mesh 0: expected .vertices, faces. or a dict of arguments of add_mesh.., found 3"),
+            ([(corners, faces), None], "mesh 1: expected .*, found None"),
+            ([(corners, faces, 1)], "mesh 0: expected .vertices, faces."),
+            (["ab"], "mesh 0: expected .*, found 'ab'"),
+            ([corners], "mesh 0: expected"),
+            ([{"faces": faces}], "mesh 0: expected vertices"),
+            ([{"vertices": corners, "faces": faces, "matrix": 3}], "mesh 0: matrix: "),
+            ("ab", "meshes: expected an iterable"),
+            ({"vertices": corners}, "meshes: expected an iterable"),
+        ):
+            with self.assertRaisesRegex(halflit.UsageError, "^" + said):
+                list(halflit.render_meshes(given, 8, threads=1))
+        for name in ("colour", "place", 3):
+            with self.assertRaisesRegex(TypeError, f"mesh 0: has no {name!r}"):
+                list(halflit.render_meshes([{"vertices": corners, "faces": faces, name: 1}], 8))
 
 
 if __name__ == "__main__":

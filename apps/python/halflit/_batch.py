@@ -74,13 +74,17 @@ class _MeshDrawer:
         self.plain: Any = None  # whether the last mesh had the plain material, lit (False) or unlit
         self.is_placed = False  # by a matrix of its own
 
-    def draw(self, mesh: Any) -> Picture:
-        arrays: Dict[str, Any] = dict(mesh) if isinstance(mesh, dict) else dict(zip(("vertices", "faces"), mesh))
-        matrix = arrays.pop("matrix", None)
-        for name in ("material", "place"):
-            if name in arrays:
-                raise TypeError(f"render_meshes(): a mesh has no {name!r} of its own")
-        scene = self.scene
+    def draw(self, mesh: Any, index: int) -> Picture:
+        arrays = _arguments(mesh, index)
+        try:
+            self._take(arrays)
+        except UsageError as error:
+            raise UsageError(f"mesh {index}: {error}") from None
+        return draw_setup(self.scene, choose(self.scene, self.size, self.options), self.options)
+
+    def _take(self, arrays: Dict[str, Any]) -> None:
+        """The mesh is that of the scene from now on."""
+        matrix, scene = arrays.pop("matrix", None), self.scene
         is_first = not scene.counts["instances"]
         material, plain = (self.material if is_first else None), None
         if self.material is None:
@@ -93,7 +97,24 @@ class _MeshDrawer:
             if matrix is not None or self.is_placed:
                 scene.set_instance(0, np.eye(4) if matrix is None else matrix)
         self.plain, self.is_placed = plain, matrix is not None
-        return draw_setup(scene, choose(scene, self.size, self.options), self.options)
+
+
+#: Arguments of Scene.add_mesh() that a mesh of render_meshes() has.
+_OF_A_MESH = ("vertices", "faces", "normals", "uv", "uv1", "colors", "colors_space", "tangents", "topology", "name", "matrix")
+
+
+def _arguments(mesh: Any, index: int) -> Dict[str, Any]:
+    """The arguments of Scene.add_mesh() that an entry of render_meshes(meshes) is."""
+    if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
+        return dict(zip(_OF_A_MESH, mesh))
+    if not isinstance(mesh, dict):
+        raise UsageError(f"mesh {index}: expected (vertices, faces) or a dict of arguments of add_mesh(), found {shown(mesh)}")
+    for name in mesh:
+        if name not in _OF_A_MESH:
+            raise TypeError(f"mesh {index}: has no {name!r} of its own")
+    if mesh.get("vertices") is None:
+        raise UsageError(f"mesh {index}: expected vertices")
+    return dict(mesh)
 
 
 def draw_meshes(meshes: Iterable[Any], size: Any, material: Any, options: Dict[str, Any]) -> Iterator[Picture]:
@@ -108,13 +129,13 @@ def draw_meshes(meshes: Iterable[Any], size: Any, material: Any, options: Dict[s
 def _drawn_meshes(meshes: Iterable[Any], size: Any, threads: int, material: Any, options: Dict[str, Any]) -> Iterator[Picture]:
     own, stopped = threading.local(), threading.Event()
 
-    def draw(mesh: Any) -> Picture:
+    def draw(mesh: Any, index: int) -> Picture:
         if stopped.is_set():
             raise CancelledError("a picture before was stopped")
         if not hasattr(own, "drawer"):
             own.drawer = _MeshDrawer(size, material, options)
         try:
-            picture: Picture = own.drawer.draw(mesh)
+            picture: Picture = own.drawer.draw(mesh, index)
         except CancelledError:  # by Ctrl-C, whose exception the main thread may not have seen yet
             stopped.set()
             raise
@@ -123,8 +144,8 @@ def _drawn_meshes(meshes: Iterable[Any], size: Any, threads: int, material: Any,
     pool = ThreadPoolExecutor(threads, "halflit", begins_helper())
     waiting: Deque[Future[Picture]] = deque()
     try:
-        for mesh in meshes:
-            waiting.append(pool.submit(draw, mesh))
+        for index, mesh in enumerate(meshes):
+            waiting.append(pool.submit(draw, mesh, index))
             if len(waiting) > 4 * threads:  # enough for all threads, and no more memory than that
                 yield waiting.popleft().result()
         while waiting:

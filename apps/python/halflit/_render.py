@@ -13,7 +13,7 @@ from ._members import LightMembers
 from ._picture_options import PictureOptions
 from ._scene import Scene
 from ._types import Size, Unpack
-from ._values import real, shown, truth
+from ._values import listed, real, shown, truth
 
 
 def render(
@@ -51,7 +51,7 @@ def render(
         others.update(ground=ground or None, scene_lights=None if scene_lights else False)
         refuse({**of_file, **others}, "a Scene: the Scene has methods for it")
         return source.render(size, **options)
-    added: Any = [lights] if isinstance(lights, (Light, dict)) else list(lights)
+    added: Any = [lights] if isinstance(lights, (Light, dict)) else listed(lights, "lights", "Light objects, or dicts of their members")
     with scene_of(source, of_file) as drawn:
         if not scene_lights:
             drawn.clear_lights()
@@ -82,7 +82,7 @@ def render_meshes(
     """
     from ._batch import draw_meshes
 
-    if not hasattr(meshes, "__iter__"):
+    if not hasattr(meshes, "__iter__") or isinstance(meshes, (str, bytes, dict)):
         raise UsageError(f"meshes: expected an iterable of (vertices, faces) or dicts, found {shown(meshes)}")
     return draw_meshes(meshes, size, material, dict(options))
 
@@ -118,4 +118,4 @@ def scene_of(source: Any, of_file: Dict[str, Any]) -> Scene:
         made = Scene()
         made.add_mesh(*source)
         return made
-    raise TypeError(f"render(): expected a path, bytes, (vertices, faces), a trimesh or a Scene, found {type(source).__name__}")
+    raise TypeError(f"source: expected a path, bytes, (vertices, faces), a trimesh or a Scene, found {type(source).__name__}")

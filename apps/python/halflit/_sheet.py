@@ -10,7 +10,7 @@ from ._color import BRIGHTEST, color, srgb_from_linear
 from ._errors import UsageError
 from ._picture import Picture, codes_of
 from ._types import Array, Color
-from ._values import shown, whole
+from ._values import listed, shown, whole
 
 _LABEL_SHARE = 14  # a line of letters is at least this share of a picture's width
 _LEAST_LETTERS = 11  # pixels
@@ -35,10 +35,10 @@ def contact_sheet(
     if isinstance(pictures, dict):
         labels = list(pictures) if labels is None else labels
         pictures = pictures.values()
-    codes = [_straight(picture, i) for i, picture in enumerate(pictures)]
+    codes = [_straight(picture, i) for i, picture in enumerate(listed(pictures, "pictures", "a list of pictures"))]
     if not codes:
         raise UsageError("pictures: expected one or more")
-    texts = None if labels is None else [str(label) for label in labels]
+    texts = None if labels is None else [str(label) for label in listed(labels, "labels", "a list of texts")]
     if texts is not None and len(texts) != len(codes):
         raise UsageError(f"labels: {len(texts)}, expected one for each of {len(codes)} pictures")
     columns = math.ceil(math.sqrt(len(codes))) if columns is None else whole(columns, "columns", 1, 2**16)

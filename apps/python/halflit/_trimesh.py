@@ -35,7 +35,7 @@ def add(scene: Scene, value: Any) -> None:
         return
     mesh = add_geometry(scene, value, None)
     if mesh is None:
-        raise UsageError(f"expected a Trimesh, PointCloud or Scene of trimesh, found {type(value).__name__}")
+        raise UsageError(f"mesh: expected a Trimesh, PointCloud or Scene of trimesh, found {type(value).__name__}")
     scene.add_instance(mesh)
 
 
