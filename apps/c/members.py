@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes the members of materials and settings, with their documentation, into halflit.h and Python, from the tables
-(shading/material_properties.def, raster/settings_table.def) and the comments of the C++ headers. Run it after a change to either:
+(shading/material_properties.def, raster/settings_table.def) and the comments of the C++ headers; and the dicts of members that Python's
+type checkers know, from the classes of the package. Run it after a change to one of them:
 
     apps/c/members.py            writes the files
     apps/c/members.py --check    writes nothing; exit code 1 if one of them would change
@@ -16,6 +17,16 @@ SOURCE = "shading/include/halflit/material.hpp"
 HEADER = "apps/c/include/halflit/halflit.h"
 PYTHON = "apps/python/halflit/_material.py"
 PYTHON_MEMBERS = "apps/python/halflit/_members.py"
+# TypedDict -> class whose members it has, its file, and those that are not in it.
+PYTHON_DICTS = {
+    "LobeMembers": ("Lobe", PYTHON, ()),
+    "TextureUseKeywords": ("TextureUse", PYTHON, ("texture",)),
+    "LightKeywords": ("Light", "apps/python/halflit/_light.py", ("type",)),
+    "CameraMembers": ("Camera", "apps/python/halflit/_camera.py", ("matrix",)),
+    "MaterialMembers": ("Material", PYTHON, ()),
+}
+# Types of attributes -> what a dict may have in their place.
+WIDER = {"Union[TextureUse, int]": "TextureOf", "Union[Lobe, str, Tuple[str, float]]": "LobeOf"}
 SETTINGS_TABLE = "raster/settings_table.def"
 SETTINGS_SOURCES = ("raster/include/halflit/settings.hpp", "shading/include/halflit/shading.hpp")
 USUAL_SETTINGS = "raster/auto_setup.cpp"
@@ -93,6 +104,15 @@ def python_ranges():
 def python_annotations():
     kinds = {"float": "float", "Vec3f": "Color", "Vec4f": "Color", "TextureUse": "Union[TextureUse, int]"}
     return "".join(f"    {name}: {kinds[kind]}\n" for name, kind, *_ in properties())
+
+
+def python_dict(text, name, left_out):
+    """The lines of a TypedDict: annotations and settable properties of a class, in this text of its file."""
+    body = re.split(r"^class ", text.split(f"\nclass {name}(Record):\n", 1)[1], maxsplit=1, flags=re.M)[0]
+    rows = re.findall(r"^    ([a-z]\w*): (.*)$", re.sub(r'""".*?"""', "", body, flags=re.S), re.M)
+    for settable in re.findall(r"^    @(\w+)\.setter$", body, re.M):
+        rows.append((settable, re.search(rf"^    def {settable}\(self\) -> (.*):$", body, re.M).group(1)))
+    return "".join(f"    {member}: {WIDER.get(kind, kind)}\n" for member, kind in rows if member not in left_out)
 
 
 def settings():
@@ -196,8 +216,10 @@ def made():
     options = between(text_of(PYTHON_SETTINGS), "    Settings:", "\n    How it is computed", docs)
     options = between(options, "    # Settings: written by apps/c/members.py.", "    # How it is computed.", annotations)
     keywords = between(text_of(PYTHON_TABLE), "SETTINGS: Dict[str, Tuple[str, str]] = {", "}", table)
-    uses = python_annotations().replace("Union[TextureUse, int]", "TextureOf")
-    members = between(text_of(PYTHON_MEMBERS), "    # Written by apps/c/members.py.", "    # Other members.", uses)
+    members = text_of(PYTHON_MEMBERS)
+    for name, (kind, path, left_out) in PYTHON_DICTS.items():
+        lines = python_dict(python if path == PYTHON else text_of(path), kind, left_out)
+        members = re.sub(rf'(^class {name}\(.*?""".*?"""\n\n).*?(?=^\n|\Z)', lambda found: found.group(1) + lines, members, flags=re.S | re.M)
     return {HEADER: header, PYTHON: python, PYTHON_MEMBERS: members, PYTHON_SETTINGS: options, PYTHON_TABLE: keywords}
 
 

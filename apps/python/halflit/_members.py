@@ -1,7 +1,8 @@
-"""Members of materials, lights, cameras and uses of textures as dicts and as keywords, for type checkers."""
+"""Members of materials, lights, cameras and uses of textures as dicts and as keywords, for type checkers. Those that have a class of the
+package are written by apps/c/members.py, from its annotations."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Tuple, TypedDict, Union
+from typing import TYPE_CHECKING, Optional, Tuple, TypedDict
 
 from ._types import Color, Point
 
@@ -67,13 +68,12 @@ class CameraMembers(TypedDict, total=False):
     half_width: float
     near_z: float
     far_z: float
-    sides: Union[Tuple[float, float, float, float], None]
+    sides: Optional[Tuple[float, float, float, float]]
 
 
 class MaterialMembers(TypedDict, total=False):
     """See halflit.Material."""
 
-    # Written by apps/c/members.py.
     base_color: Color
     metallic: float
     roughness: float
@@ -116,7 +116,6 @@ class MaterialMembers(TypedDict, total=False):
     iridescence_texture: TextureOf
     iridescence_thickness_texture: TextureOf
     anisotropy_texture: TextureOf
-    # Other members.
     name: str
     alpha_mode: str
     double_sided: bool
