@@ -117,15 +117,47 @@ void add_normal_warning(const PreparedData& scene, const shading::ShadingPlan& p
     warnings.push_back(std::move(warning));
 }
 
-/// Adds a warning where several objects are looked through: one does not show the others.
-void add_glass_warning(const PreparedData& scene, const shading::ShadingPlan& plan, std::vector<std::string>& warnings) {
-    int objects = 0;
-    for (std::size_t i = 0; i < scene.scene().instances.size(); ++i)
-        objects +=
-            counts_for_views(scene.scene(), scene.scene().instances[i]) && plan.materials[scene.material_of(i)].transmission.looked_through
-                ? 1
-                : 0;
-    if (objects > 1) warnings.push_back(std::to_string(objects) + " objects are of rough or thick glass: one is not seen through another");
+/// The part of the picture that a box may fill, in [-1, 1]; empty if low >= high.
+struct PictureBox {
+    double low_x = 1e300, low_y = 1e300, high_x = -1e300, high_y = -1e300;
+
+    PictureBox(const Bounds& box, const Mat4& clip_from_object) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const auto at = [corner](int axis, float low, float high) { return double{(corner >> axis & 1) != 0 ? high : low}; };
+            const ClipPlace place =
+                clip_place(clip_from_object, {at(0, box.min.x, box.max.x), at(1, box.min.y, box.max.y), at(2, box.min.z, box.max.z)});
+            const bool ahead = place.w > 0.0;  // a box that reaches behind the camera may fill all
+            low_x = std::min(low_x, ahead ? place.x / place.w : -1.0), high_x = std::max(high_x, ahead ? place.x / place.w : 1.0);
+            low_y = std::min(low_y, ahead ? place.y / place.w : -1.0), high_y = std::max(high_y, ahead ? place.y / place.w : 1.0);
+        }
+        low_x = std::max(low_x, -1.0), low_y = std::max(low_y, -1.0), high_x = std::min(high_x, 1.0), high_y = std::min(high_y, 1.0);
+    }
+    [[nodiscard]] bool empty() const { return !(low_x < high_x && low_y < high_y); }
+};
+
+/// Whether two of the boxes may overlap. Of many that share columns of the picture, not all pairs are tried.
+bool any_overlap(std::vector<PictureBox> boxes) {
+    std::sort(boxes.begin(), boxes.end(), [](const PictureBox& a, const PictureBox& b) { return a.low_x < b.low_x; });
+    std::size_t pairs = 1000000;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t k = i + 1; k < boxes.size() && boxes[k].low_x < boxes[i].high_x; ++k)
+            if ((boxes[k].low_y < boxes[i].high_y && boxes[i].low_y < boxes[k].high_y) || --pairs == 0) return true;
+    return false;
+}
+
+/// Adds a warning where several objects are looked through and may lie over one another: one does not show the others.
+void add_glass_warning(const PreparedData& scene, const shading::ShadingPlan& plan, const Mat4& clip_from_world,
+                       std::vector<std::string>& warnings) {
+    std::vector<PictureBox> boxes;
+    for (std::size_t i = 0; i < scene.scene().instances.size(); ++i) {
+        const Instance& instance = scene.scene().instances[i];
+        if (!counts_for_views(scene.scene(), instance) || !plan.materials[scene.material_of(i)].transmission.looked_through) continue;
+        const PictureBox box(scene.mesh(instance.mesh).bounds, clip_from_world * instance.world_from_object);
+        if (!box.empty()) boxes.push_back(box);
+    }
+    const std::size_t objects = boxes.size();
+    if (any_overlap(std::move(boxes)))
+        warnings.push_back(std::to_string(objects) + " objects are of rough or thick glass: one is not seen through another");
 }
 
 /// Material plans for the alpha test of the shadow pass; empty if no material has a mask.
@@ -281,7 +313,9 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     plan.environment_uses = environment_uses(prepared, plan.shading);
     add_lobe_warnings(prepared, plan.shading, options, plan.warnings);
     add_normal_warning(prepared, plan.shading, options, plan.warnings);
-    if (plan.looks_through) add_glass_warning(prepared, plan.shading, plan.warnings);
+    if (plan.looks_through)
+        add_glass_warning(prepared, plan.shading, clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height)),
+                          plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
     return plan;
 }

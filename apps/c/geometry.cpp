@@ -350,8 +350,9 @@ int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const ha
     return changing(__func__, scene, {{given, "instance"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.instances.size(), scene->free_instances, "instance");
         if (!at) return tl::unexpected<Error>(at.error());
-        const auto made = make_instance(*scene, given);
+        auto made = make_instance(*scene, given);
         if (!made) return tl::unexpected<Error>(made.error());
+        made->backdrop = scene->scene.instances[*at].backdrop;  // callers of C do not see it
         scene->put_instance(*at, *made);
         scene->complete_mesh_of(*made);
         return {};

@@ -48,6 +48,7 @@ void add_backdrop(Scene& scene) {
     occluders.push_back({kPlinthFoot, kPlinthRadius, kPlinthSide});
     const int paper = add_material(scene, "paper", {1, 1, 1}, 0.0f, 1.0f);
     add_object(scene, raster::detail::make_cyclorama(16.0f, {0.17f, 0.215f, 0.27f}, occluders), paper, {});
+    scene.instances.back().backdrop = true;
 }
 
 void add_balls(Scene& scene) {

@@ -236,6 +236,8 @@ FramedPart framed_part(const Scene& scene) {
         placed.push_back({static_cast<int>(i), wide, part.meshes[m].vertices.size(), triangles_of(scene.meshes[m])});
     }
     const std::size_t all = placed.size();
+    const auto is_backdrop = [&](const Placed& one) { return scene.instances[static_cast<std::size_t>(one.instance)].backdrop; };
+    if (!std::all_of(placed.begin(), placed.end(), is_backdrop)) std::erase_if(placed, is_backdrop);
     leave_out_strays(placed);
     leave_out_grounds(placed);
     part.whole &= placed.size() == all;

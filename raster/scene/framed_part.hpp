@@ -1,6 +1,6 @@
 // The part of a scene that a view of the whole is fitted to. A ground that is much larger than all that stands on it, and a few vertices
 // far away from all others, are left out: what the scene is about would be some pixels in a wide plane. The rule depends on the geometry
-// alone:
+// alone, but for marks that code sets:
 //
 // - Of a mesh, vertices outside of a box are left out if they have at most max(1, n / 1000) different positions of n, at least 8, or at
 // most
@@ -8,6 +8,7 @@
 // - Instances are left out likewise, by the number of their vertices: at most max(3, n / 1000) of n, at least 24.
 // - A ground is left out if it is flat (its height at most a hundredth of its width), no higher than the middle of the rest, has fewer
 //   triangles than the rest, and the radius of the rest is below 1/16 of that of the whole. Of several, the largest goes first.
+// - Instances that are marked as backdrops are left out.
 //
 // All else is framed as a whole.
 #pragma once

@@ -79,7 +79,7 @@ Result<void> PreparedData::prepare_meshes(std::span<const std::size_t> which, Ex
 }
 
 Result<void> PreparedData::check_instance(std::size_t index) const {
-    const auto [mesh, ignored, material, color, visible] = scene_->instances[index];
+    const auto [mesh, ignored, material, color, visible, backdrop] = scene_->instances[index];
     const auto names = [&](const char* what, int named, std::size_t count) {
         return fail(ErrorCode::bad_input,
                     "instance " + std::to_string(index) + " names " + what + " " + std::to_string(named) + " of " + std::to_string(count));

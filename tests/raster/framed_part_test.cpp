@@ -151,3 +151,17 @@ TEST_CASE("framing: what is no ground and no stray is framed", "[raster][framing
     add(ground, make_plane(300, 1), {});
     CHECK(distance_of(framed(ground)) > 300);
 }
+
+TEST_CASE("framed part: a backdrop is left out of the view of the whole, unless there is nothing else", "[raster][camera]") {
+    const Scene bare = car();
+    Scene staged = car();
+    add(staged, make_box({5, 2, 0.1f}), translation({0, 2, -3}));
+    CHECK(!same(framed(staged), framed(bare)));
+    staged.instances.back().backdrop = true;
+    CHECK(same(framed(staged), framed(bare)));
+    Scene alone;
+    add(alone, make_box({5, 2, 0.1f}), translation({0, 2, -3}));
+    const Camera wanted = framed(alone);
+    alone.instances.back().backdrop = true;
+    CHECK(same(framed(alone), wanted));
+}

@@ -45,3 +45,28 @@ TEST_CASE("flat normals: tiny and huge triangles keep their direction, empty and
         CHECK(mesh.normals[0] == Vec3f{0, 0, 1});
     }
 }
+
+TEST_CASE("smooth normals: a surface with split vertices has the normals of one that shares them", "[raster]") {
+    Mesh shared;  // a pyramid's four sides, and a vertex that no triangle uses
+    shared.positions = {{1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, {-1, 0, 1}, {0, 3, 0}, {9, 9, 9}};
+    shared.indices = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+    Mesh split;
+    for (const std::uint32_t index : shared.indices) {
+        split.indices.push_back(static_cast<std::uint32_t>(split.positions.size()));
+        split.positions.push_back(shared.positions[index]);
+    }
+    generate_smooth_normals(shared);
+    generate_smooth_normals(split);
+    for (std::size_t i = 0; i < split.indices.size(); ++i) CHECK(split.normals[i] == shared.normals[shared.indices[i]]);
+    CHECK(shared.normals[4] == Vec3f{0, 1, 0});  // by symmetry
+    CHECK(shared.normals[5] == Vec3f{0, 1, 0});
+    CHECK(split.positions.size() == 12);
+}
+
+TEST_CASE("smooth normals: the two sides of a sheet keep their own", "[raster]") {
+    Mesh sheet;
+    sheet.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+    sheet.indices = {0, 1, 2, 3, 5, 4};
+    generate_smooth_normals(sheet);
+    for (std::size_t i = 0; i < 6; ++i) CHECK(sheet.normals[i] == Vec3f{0, 0, i < 3 ? 1.0f : -1.0f});
+}

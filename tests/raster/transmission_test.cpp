@@ -292,3 +292,21 @@ TEST_CASE("transmission: a change of the share alone is drawn", "[raster][blend]
     REQUIRE(renderer.render(*prepared, camera_flat(), settings, {8, 8, codes.data()}));
     CHECK(codes[0] == 255);
 }
+
+TEST_CASE("transmission: a warning of rough glass behind rough glass names panes that lie over one another alone", "[raster][blend]") {
+    const auto warnings = [](float left, float right) {
+        Scene scene;
+        Material rough = glass(0.8f);
+        rough.roughness = 0.5f;
+        add_pane(scene, rough, -1.0f, 0.0, -0.5f, 0.0f);
+        add_pane(scene, rough, -1.5f, 0.0, left, right);
+        std::vector<std::uint8_t> codes(std::size_t{4} * 32 * 32);
+        const auto report = render(scene, camera_flat(), {}, {32, 32, codes.data()});
+        REQUIRE(report);
+        return report->warnings;
+    };
+    CHECK(warnings(0.2f, 0.6f).empty());
+    const auto found = warnings(-0.2f, 0.6f);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0] == "2 objects are of rough or thick glass: one is not seen through another");
+}

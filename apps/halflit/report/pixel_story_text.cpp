@@ -99,7 +99,7 @@ std::string share_text(const LightShare& share, bool surface, const NameOfInstan
 }
 
 std::string light_text(const PixelStory& story, const NameOfInstance& name) {
-    std::string text = "\nlinear light, times alpha\n";
+    std::string text = "\nlinear light, times alpha, mean of all samples (N.L and what is in the way: at the first one)\n";
     for (const LightShare& share : story.shares) text += share_text(share, story.shows == PixelShows::surface, name);
     if (std::any_of(story.shares.begin(), story.shares.end(), [](const LightShare& share) { return share.hidden_by.has_value(); }))
         text += "  (\"in its way\" is by a ray to the light's middle; shadow maps decide the picture)\n";

@@ -48,6 +48,7 @@ struct Instance {
     int material = -1;         ///< index into Scene::materials, in place of the mesh's; -1: the mesh's
     Vec4f color{1, 1, 1, 1};   ///< linear, times the material's base colour; alpha counts where the material masks or blends
     bool visible = true;       ///< false: it is not drawn, casts no shadow, and views do not look at it
+    bool backdrop = false;     ///< a view of the whole scene does not contain it, if there is something else
 };
 
 /// Smallest axis-aligned box around a set of points, in the points' space.
@@ -68,7 +69,9 @@ struct Bounds {
 HALFLIT_API void generate_flat_normals(Mesh& mesh);
 
 /// Makes mesh.normals those of the smooth surface through the vertices: the mean of the triangles around each, by their areas, of length 1.
-/// A vertex without a triangle, or whose triangles cancel each other, has +y. Vertices are not split. Triangles alone.
+/// Vertices at one position count as one, so that a seam of texture coordinates does not show; where their triangles face away from the
+/// mean, as on the two sides of a sheet, they count alone. A vertex without a triangle, or whose triangles cancel each other, has +y.
+/// Vertices are not split. Triangles alone.
 HALFLIT_API void generate_smooth_normals(Mesh& mesh);
 
 /// Fills mesh.tangents from positions, normals and a set of texture coordinates (0 or 1, v down); the mesh must have all three, and indices
