@@ -92,6 +92,15 @@ class Notebooks(unittest.TestCase):
         self.assertEqual((scene._repr_html_(), scene._repr_png_()), (shown["text/html"], shown["image/png"]))
         self.assertIn("camera at", shown["text/html"])
 
+    def test_views_are_shown_side_by_side(self):
+        views = halflit.Scene.demo().render_views(["front", (30, 20.5)], 24)
+        page = Page(views._repr_html_())
+        self.assertEqual(page.open, [])
+        self.assertEqual([tag for tag, _ in page.elements if tag in ("figure", "img")], ["figure", "img"] * 2)
+        self.assertRegex(views._repr_html_(), "front</figcaption>.*30°, 20.5°</figcaption>")
+        self.assertEqual(list(views), ["front", (30, 20.5)])
+        self.assertIn("24 x 24 pixels", repr(halflit.Scene.demo().setup(24)))
+
 
 class Page(html.parser.HTMLParser):
     """The elements of a page, and its script."""
@@ -104,7 +113,7 @@ class Page(html.parser.HTMLParser):
 
     def handle_starttag(self, tag, attributes):
         self.elements.append((tag, dict(attributes)))
-        if tag not in ("meta", "img"):
+        if tag not in ("meta", "img", "br"):
             self.open.append(tag)
 
     def handle_endtag(self, tag):

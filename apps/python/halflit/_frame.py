@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import html
 from typing import Any, Dict, Iterator, List
 
 import numpy as np
@@ -19,6 +20,15 @@ from ._views import USUAL_SIZE, drawn_views
 
 _QUALITIES = {"fast": (2, 99), "draft": (8, 95)}
 _MEASURED = ("samples", "anisotropy", "shadow_size")
+
+
+class Views(Dict[Any, Picture]):
+    """Pictures by their views, which notebooks show side by side."""
+
+    def _repr_html_(self) -> str:
+        figure = '<figure style="display:inline-block; margin:4px"><figcaption>{}</figcaption>{}</figure>'
+        names = {view: view if isinstance(view, str) else "{:g}°, {:g}°".format(*view) for view in self}
+        return "".join(figure.format(html.escape(names[view]), picture._repr_html_()) for view, picture in self.items())
 
 
 def draw(scene: Any, size: Any, options: Dict[Any, Any]) -> Picture:
@@ -57,7 +67,7 @@ def frames(scene: Any, views: List[Any], size: Any, is_fixed: bool, options: Dic
 def draw_views(scene: Any, views: List[Any], size: Any, light: str, options: Dict[Any, Any]) -> Dict[Any, Picture]:
     """The pictures of render_views(), by their views."""
     names = [tuple(view) if isinstance(view, list) else view for view in views]
-    return dict(zip(names, view_frames(scene, views, size, light, options)))
+    return Views(zip(names, view_frames(scene, views, size, light, options)))
 
 
 def view_frames(scene: Any, views: List[Any], size: Any, light: str, options: Dict[Any, Any]) -> Iterator[Picture]:

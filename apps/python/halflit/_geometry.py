@@ -115,7 +115,7 @@ class Geometry(SceneBase):
         and aovs["id"] - 1 mean that one: arm = scene.add_mesh(v, f), then scene.set_instance(arm.instance, matrix).
 
         vertices: (n, 3) world units; what has a corner that is not finite is left out, with a warning. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
-        normals: (n, 3), "smooth" (made from the faces around each vertex, anew when they move), or None: each triangle is flat.
+        normals: (n, 3), "smooth" (made from the faces around each position, anew when they move), or None: each triangle is flat.
         uv, uv1: (n, 2), v = 0 is the first row of a texture. tangents: (n, 4), direction and +1 or -1.
         colors: (n, 3) or (n, 4), uint8 sRGB codes, or linear floats, where 1 is white; above 16 they are taken for codes and refused.
         colors_space: "srgb": floats, too, are sRGB values, 0 to 1; "linear": uint8, too, are linear.

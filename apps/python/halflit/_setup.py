@@ -36,6 +36,9 @@ class Setup:
         """Factor on all light."""
         return float(self._settings.exposure)
 
+    def __repr__(self) -> str:
+        return f"<halflit.Setup of {self.size[0]} x {self.size[1]} pixels, exposure {self.exposure:.4g}, {self._camera!r}>"
+
     def __reduce_ex__(self, protocol: Any) -> NoReturn:
         raise TypeError("a halflit.Setup cannot be copied or pickled: it belongs to its scene")
 
