@@ -6,7 +6,7 @@ namespace halflit {
 namespace {
 
 constexpr TimeLimit::Clock::time_point kNever = TimeLimit::Clock::time_point::max();
-thread_local TimeLimit::Clock::time_point current_end = kNever;
+thread_local TimeLimit::Bounds current{kNever, nullptr};
 
 TimeLimit::Clock::time_point after(double seconds) {
     constexpr double kLongest = 1e9;  // 30 years
@@ -15,17 +15,22 @@ TimeLimit::Clock::time_point after(double seconds) {
            std::chrono::duration_cast<TimeLimit::Clock::duration>(std::chrono::duration<double>(std::min(seconds, kLongest)));
 }
 
+bool is_cancelled() { return current.cancelled != nullptr && (*current.cancelled)(); }
+bool is_late() { return current.end != kNever && TimeLimit::Clock::now() >= current.end; }
+
 }  // namespace
 
-TimeLimit::TimeLimit(double seconds) : TimeLimit(std::min(current_end, after(seconds))) {}
-TimeLimit::TimeLimit(Clock::time_point end) : outer_(current_end) { current_end = end; }
-TimeLimit::~TimeLimit() { current_end = outer_; }
-TimeLimit::Clock::time_point TimeLimit::end() { return current_end; }
+TimeLimit::TimeLimit(double seconds, const Cancelled* cancelled)
+    : TimeLimit(Bounds{std::min(current.end, after(seconds)), cancelled != nullptr && *cancelled ? cancelled : current.cancelled}) {}
+TimeLimit::TimeLimit(const Bounds& bounds) : outer_(current) { current = bounds; }
+TimeLimit::~TimeLimit() { current = outer_; }
+TimeLimit::Bounds TimeLimit::bounds() { return current; }
 
-bool time_is_over() { return current_end != kNever && TimeLimit::Clock::now() >= current_end; }
+bool time_is_over() { return is_late() || is_cancelled(); }
 
 void check_time() {
-    if (time_is_over()) throw OutOfTime{};
+    if (is_cancelled()) throw OutOfTime{.is_cancelled = true};
+    if (is_late()) throw OutOfTime{};
 }
 
 }  // namespace halflit

@@ -1,42 +1,54 @@
-// The time limit of a thread's work. Long loops call check_time(), which throws OutOfTime once the limit has passed. The function that set
-// the limit turns this into an error. The limit belongs to the thread, so that loops need no parameter for it. Work that moves to other
-// threads takes it along.
+// The time limit of a thread's work, and the request to stop it. Long loops call check_time(), which throws OutOfTime once the limit has
+// passed or the work is cancelled. The function that set the limit turns this into an error. The limit belongs to the thread, so that loops
+// need no parameter for it. Work that moves to other threads takes it along.
 #pragma once
 
 #include "halflit/export.hpp"
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 
 namespace halflit {
 
 /// Thrown by check_time().
-struct HALFLIT_API OutOfTime {};
+struct HALFLIT_API OutOfTime {
+    bool is_cancelled = false;  ///< cancelled before the time was over
+};
 
-/// Sets a time limit for this thread while the object lives.
+/// Sets a time limit for this thread while the object lives, and what may cancel its work.
 class [[nodiscard]] TimeLimit {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Of nested limits the earlier one holds. 0: no limit of its own.
-    HALFLIT_API explicit TimeLimit(double seconds);
-    /// For work that began on another thread, with the end of its limit. It replaces this thread's limit, which may belong to other work.
-    HALFLIT_API explicit TimeLimit(Clock::time_point end);
+    /// Asked by check_time(), from any thread that takes the limit along; true: the work ends.
+    using Cancelled = std::function<bool()>;
+    /// A limit that can be taken to another thread.
+    struct Bounds {
+        Clock::time_point end;       ///< the largest time point: none
+        const Cancelled* cancelled;  ///< null: nothing cancels
+    };
+
+    /// Of nested limits the earlier one holds. 0: no limit of its own. cancelled: in place of the outer one, which stays if it is null or
+    /// empty. It has to outlive this object.
+    HALFLIT_API explicit TimeLimit(double seconds, const Cancelled* cancelled = nullptr);
+    /// For work that began on another thread, with its limit. It replaces this thread's limit, which may belong to other work.
+    HALFLIT_API explicit TimeLimit(const Bounds& bounds);
     HALFLIT_API ~TimeLimit();
     TimeLimit(const TimeLimit&) = delete;
     TimeLimit& operator=(const TimeLimit&) = delete;
 
-    /// When this thread's limit ends; the largest time point where it has none.
-    [[nodiscard]] HALFLIT_API static Clock::time_point end();
+    /// This thread's limit.
+    [[nodiscard]] HALFLIT_API static Bounds bounds();
 
 private:
-    Clock::time_point outer_;
+    Bounds outer_;
 };
 
-/// True if this thread's limit is over.
+/// True if this thread's limit is over or its work is cancelled.
 [[nodiscard]] HALFLIT_API bool time_is_over();
 
-/// Throws OutOfTime if this thread's limit is over. Takes about 30 ns with a limit, 2 ns without.
+/// Throws OutOfTime if this thread's limit is over or its work is cancelled. Takes about 30 ns with a limit, 2 ns without.
 HALFLIT_API void check_time();
 
 /// Asks for the time once in 65,536 calls. For loops whose steps take nanoseconds.
@@ -59,7 +71,7 @@ template <class Less>
     };
 }
 
-/// Message of the error for work that OutOfTime ended.
-inline constexpr const char* kOutOfTime = "the time limit was reached before the work was done";
+/// Messages of the errors for work that OutOfTime ended.
+inline constexpr const char *kOutOfTime = "the time limit was reached before the work was done", *kCancelled = "stopped on request";
 
 }  // namespace halflit

@@ -7,6 +7,7 @@
 #include "sh/vec3d.hpp"
 #include "shading/model/scalar.hpp"
 #include "shading/out_of_memory.hpp"
+#include "shading/out_of_time.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -128,8 +129,8 @@ Result<std::shared_ptr<const Environment>> make_environment(EnvironmentImage ima
                 return fail(ErrorCode::bad_input, "environment: found a value that is negative or not finite");
         }
         return std::make_shared<Environment>(shading::environment_of(std::move(image), options));
-    } catch (const OutOfTime&) {
-        return fail(ErrorCode::limit, std::string("environment: ") + kOutOfTime);
+    } catch (const OutOfTime& found) {
+        return fail_out_of_time(found, "environment: ");
     } catch (const std::bad_alloc&) {
         return fail_out_of_memory([] { return std::string("out of memory while making an environment"); });
     }

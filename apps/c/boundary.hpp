@@ -1,6 +1,9 @@
 // The boundary to C: a Result becomes a code and a message, and no exception passes.
 #pragma once
 
+#include "apps/c/interrupt.hpp"
+#include "sh/time_limit.hpp"
+
 #include <halflit/error.hpp>
 
 #include <cstdint>
@@ -30,9 +33,12 @@ struct Pointer {
 template <class Body>
 std::int32_t guarded(const char* function, std::initializer_list<Pointer> pointers, const Body& body) noexcept {
     try {
+        const InterruptibleCall call;
         Result<void> done = check_pointers(function, pointers);
         if (done) done = body();
         return done ? 0 : record_failure(done.error().code, "", done.error().message.c_str());
+    } catch (const OutOfTime&) {  // no function of C has a time limit outside of what its body calls
+        return record_failure(ErrorCode::cancelled, "", kCancelled);
     } catch (const std::bad_alloc&) {
         return record_failure(ErrorCode::limit, function, "out of memory");
     } catch (const std::exception& e) {

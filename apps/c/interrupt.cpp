@@ -1,5 +1,7 @@
 #include "apps/c/interrupt.hpp"
 
+#include <halflit/halflit.h>
+
 #include <atomic>
 #include <csignal>
 #include <thread>
@@ -103,6 +105,9 @@ void end() {
 
 #endif
 
+/// Set by halflit_stop_at_interrupt().
+thread_local bool stops_calls = false;
+
 /// One thread changes the handlers at a time. A mutex that another thread holds while the process forks would stay locked in the child.
 class Changing {
 public:
@@ -147,4 +152,11 @@ Execution InterruptWatch::stopping(const Execution& execution) const {
     return made;
 }
 
+InterruptibleCall::InterruptibleCall()
+    : watch_(stops_calls),
+      cancelled_(stops_calls ? TimeLimit::Cancelled([this] { return watch_.raised(); }) : TimeLimit::Cancelled()),
+      limit_(0.0, &cancelled_) {}
+
 }  // namespace halflit::c
+
+void halflit_stop_at_interrupt(int32_t stops) { halflit::c::stops_calls = stops != 0; }

@@ -1,7 +1,8 @@
-// The signal of Ctrl-C, which ends a frame.
+// The signal of Ctrl-C, which ends a frame or a call.
 #pragma once
 
 #include "halflit/settings.hpp"
+#include "sh/time_limit.hpp"
 
 #include <cstdint>
 
@@ -26,6 +27,19 @@ private:
     bool is_wanted_;
     std::uint32_t start_ = 0;  ///< number of signals
     int process_ = 0;
+};
+
+/// While one lives in a thread that halflit_stop_at_interrupt() told so, SIGINT cancels the thread's work (sh/time_limit.hpp).
+class InterruptibleCall {
+public:
+    InterruptibleCall();
+    InterruptibleCall(const InterruptibleCall&) = delete;
+    InterruptibleCall& operator=(const InterruptibleCall&) = delete;
+
+private:
+    InterruptWatch watch_;
+    TimeLimit::Cancelled cancelled_;
+    TimeLimit limit_;
 };
 
 }  // namespace halflit::c

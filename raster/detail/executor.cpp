@@ -212,13 +212,13 @@ void Executor::configure(const Execution& execution) {
 
 void Executor::run(int count, const std::function<void(int)>& body) {
     std::atomic<bool> left_out{false};
-    const std::function<void(int)> task = [&, end = TimeLimit::end()](int i) {
+    const std::function<void(int)> task = [&, bounds = TimeLimit::bounds()](int i) {
         if (stop_.raised()) {
             left_out = true;
             return;
         }
         const FpEnvironment environment;
-        const TimeLimit limit(end);
+        const TimeLimit limit(bounds);
         body(i);
     };
     if (hook_) {

@@ -6,6 +6,7 @@
 #include "raster/detail/stop_signal.hpp"
 #include "sh/fp_environment.hpp"
 #include "sh/time_limit.hpp"
+#include "shading/out_of_time.hpp"
 
 #include <exception>
 #include <new>
@@ -14,19 +15,19 @@
 
 namespace halflit::raster {
 
-/// Returns what `body` returns, a Result, within the time limit of `execution`. An exception becomes an error; `doing` completes the
-/// message "out of memory while ...".
+/// Returns what `body` returns, a Result, within the time limit of `execution` and until it is cancelled. An exception becomes an error;
+/// `doing` completes the message "out of memory while ...".
 template <class Body>
 auto guarded(const char* doing, const Execution& execution, const Body& body) -> decltype(body()) {
     const FpEnvironment environment;
-    const TimeLimit limit(execution.time_limit_s);
+    const TimeLimit limit(execution.time_limit_s, &execution.cancelled);
     try {
         try {
             return body();
         } catch (const std::bad_alloc&) {
             return fail(ErrorCode::limit, std::string("out of memory while ") + doing);
-        } catch (const OutOfTime&) {
-            return fail(ErrorCode::limit, kOutOfTime);
+        } catch (const OutOfTime& found) {
+            return fail_out_of_time(found);
         } catch (Stopped& stopped) {
             return tl::unexpected(std::move(stopped.error));
         } catch (const WrongLoop& e) {

@@ -30,7 +30,7 @@ bool StopSignal::raised() {
 
 void StopSignal::check() {
     if (!raised()) return;
-    if (reason_ == cancelled) throw Stopped{{ErrorCode::cancelled, "stopped on request"}};
+    if (reason_ == cancelled) throw Stopped{{ErrorCode::cancelled, kCancelled}};
     throw Stopped{{ErrorCode::limit, kOutOfTime}};
 }
 

@@ -1,6 +1,7 @@
 #include "raster/scene/flat_faces.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 
@@ -38,13 +39,16 @@ float face_slack(const Bounds& bounds) { return 4e-6f * static_cast<float>(large
 
 FlatFaces find_flat_faces(const Mesh& mesh) {
     FlatFaces out;
+    TimeCheck check;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        check();
         const Triangle triangle(mesh, i);
         if (triangle.is_finite && triangle.flat_axis() >= 0) triangle.add_to(out.flats);
     }
     if (out.flats.empty) return out;
     const float slack = face_slack(out.flats);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        check();
         const Triangle triangle(mesh, i);
         if (!triangle.is_finite) continue;
         const int axis = triangle.flat_axis();

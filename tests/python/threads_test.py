@@ -13,6 +13,21 @@ import halflit
 from support import CORNERS, FACES, box
 
 
+def wavy(side=2200):
+    """Vertices and faces of a surface of 9.7 million triangles."""
+    x, y = np.meshgrid(np.linspace(-1, 1, side, dtype=np.float32), np.linspace(-1, 1, side, dtype=np.float32))
+    vertices = np.stack([x, 0.1 * np.sin(9 * x) * np.cos(7 * y), -y], axis=-1).reshape(-1, 3)
+    i = (np.arange(side - 1, dtype=np.uint32)[:, None] * side + np.arange(side - 1, dtype=np.uint32))
+    return vertices, np.stack([i, i + 1, i + side, i + 1, i + side + 1, i + side], axis=-1).reshape(-1, 3)
+
+
+def stl(vertices, faces):
+    """A binary STL."""
+    rows = np.zeros(len(faces), np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]))
+    rows["corners"] = vertices[faces]
+    return b" " * 80 + len(faces).to_bytes(4, "little") + rows.tobytes()
+
+
 def heavy(threads=1):
     """A frame of some tenths of a second."""
     return halflit.render("demo", (1600, 900), samples=16, threads=threads)
@@ -174,6 +189,56 @@ class Callbacks(unittest.TestCase):
             self.assertLess(took, 0.3 * alone)  # after the frame it would be half of it or more
         self.assertIs(signal.getsignal(signal.SIGINT), before)
         self.assertEqual(scene.render(64).pixel_hash, expected)
+
+    def test_ctrl_c_ends_what_takes_long_before_a_frame(self):
+        vertices, faces = wavy()
+        file = stl(vertices, faces[: 2**21])
+        scenes = {normals: halflit.Scene() for normals in ("flat", "smooth")}
+        scenes["flat"].add_mesh(vertices, faces)
+        scenes["smooth"].add_mesh(vertices, faces, normals="smooth")
+
+        def add(normals):
+            halflit.Scene().add_mesh(vertices, faces, normals=normals)
+
+        def first_frame(scene=scenes["smooth"]):
+            scene.set_vertices(0, vertices)  # prepares it anew
+            scene.render(16, samples=1, shadows="off", camera=np.eye(4))
+
+        def setup():
+            scenes["flat"].add_light("point", position=(0, 3, 0))  # is chosen anew
+            scenes["flat"].setup(256)
+
+        before = signal.getsignal(signal.SIGINT)
+        for name, work in (
+            ("load", lambda: halflit.Scene.load(file)),
+            ("add_mesh, flat", lambda: add(None)),
+            ("add_mesh, smooth", lambda: add("smooth")),
+            ("setup", setup),
+            ("first frame", first_frame),
+        ):  # fmt: skip
+            alone = time.perf_counter()
+            work()
+            alone = time.perf_counter() - alone
+            for share in (0.3, 0.6):
+                sent = []
+
+                def interrupt():
+                    sent.append(time.perf_counter())
+                    os.kill(os.getpid(), signal.SIGINT)
+
+                timer = threading.Timer(share * alone, interrupt)
+                timer.start()
+                try:
+                    while True:
+                        work()
+                except KeyboardInterrupt:
+                    took = time.perf_counter() - sent[0]
+                timer.join()
+                print(f"{name} of {alone:.2f} s, Ctrl-C after {share * alone:.2f} s: ended {1000 * took:.0f} ms later")
+                with self.subTest(name):
+                    self.assertLess(took, max(0.3, 0.3 * alone))  # alone: machines may be busy; without a stop it is 0.4 of it or more
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+        self.assertEqual(scenes["flat"].counts["triangles"], len(faces))
 
     def test_a_handler_of_the_caller_does_not_stop_the_frame(self):
         expected, called = heavy().pixel_hash, []

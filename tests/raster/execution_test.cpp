@@ -1,4 +1,5 @@
 // How a frame is computed: stopping, progress, the host's own loop, and what is refused. Nothing of it changes a pixel.
+#include "halflit/prepared_scene.hpp"
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 #include "raster/detail/executor.hpp"
@@ -13,6 +14,7 @@
 #include <limits>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <type_traits>
 
 using namespace halflit;
@@ -212,6 +214,58 @@ TEST_CASE("execution: a host's thread that waits within one render may run tiles
     CHECK(done == 4);
     const TimeLimit own(1e-9);
     CHECK_THROWS_AS(executor.run(4, [](int) { check_time(); }), OutOfTime);
+}
+
+TEST_CASE("execution: what cancels a thread's work cancels that of threads and limits inside of it", "[raster][execution]") {
+    bool is_cancelled = false;
+    const TimeLimit::Cancelled asked = [&] { return is_cancelled; };
+    const auto thrown = [] {
+        try {
+            check_time();
+            return 0;
+        } catch (const OutOfTime& found) {
+            return found.is_cancelled ? 2 : 1;
+        }
+    };
+    {
+        const TimeLimit outer(0.0, &asked);
+        const TimeLimit inner(1000.0);
+        CHECK(thrown() == 0);
+        is_cancelled = true;
+        CHECK(thrown() == 2);
+        int elsewhere = 0;
+        std::thread([&, bounds = TimeLimit::bounds()] {
+            const TimeLimit taken_along(bounds);
+            elsewhere = thrown();
+        }).join();
+        CHECK(elsewhere == 2);
+    }
+    CHECK(thrown() == 0);
+    const TimeLimit late(1e-9);
+    CHECK(thrown() == 1);
+}
+
+TEST_CASE("execution: preparing a scene of one large mesh is cancelled in its midst", "[raster][execution]") {
+    Scene scene;
+    scene.meshes.push_back(make_sphere_of(1.0f, 400000));
+    scene.instances.push_back({});
+    std::atomic<int> asked{0};
+    Execution execution;
+    execution.threads = 1;
+    execution.cancelled = [&] {
+        ++asked;
+        return false;
+    };
+    REQUIRE(PreparedScene::make(scene, execution));
+    const int whole = asked;
+    CHECK(whole > 4);
+    for (const int last : {1, whole / 2, whole - 1}) {
+        asked = 0;
+        execution.cancelled = [&] { return ++asked >= last; };
+        const auto made = PreparedScene::make(scene, execution);
+        REQUIRE(!made);
+        CHECK(made.error().code == ErrorCode::cancelled);
+    }
 }
 
 TEST_CASE("execution: a function of the host that throws ends the frame with an error, and no exception leaves", "[raster][execution]") {

@@ -51,8 +51,8 @@ void set_defaults(LookOptions& options) {
 
 /// Measures the scene while it is drawn, within the time that this thread has. The scene must stay until the result is taken.
 std::future<Result<Json>> measure_beside(const RenderJob& job) {
-    const auto measure = [&job, end = TimeLimit::end()] {
-        const TimeLimit limit(end);
+    const auto measure = [&job, bounds = TimeLimit::bounds()] {
+        const TimeLimit limit(bounds);
         return measures_json(job);
     };
     try {

@@ -3,8 +3,7 @@
 
 #include "halflit/error.hpp"
 #include "sh/time_limit.hpp"
-
-#include <string>
+#include "shading/out_of_time.hpp"
 
 namespace halflit::cli {
 
@@ -14,8 +13,8 @@ auto within_time(double timeout_s, const Body& body) -> decltype(body()) {
     const TimeLimit limit(timeout_s);
     try {
         return body();
-    } catch (const OutOfTime&) {
-        return fail(ErrorCode::limit, std::string(kOutOfTime) + " (--timeout)");
+    } catch (const OutOfTime& found) {
+        return fail_out_of_time(found, "", " (--timeout)");
     }
 }
 

@@ -42,9 +42,9 @@ void in_parts(std::size_t count, std::size_t parts, const Body& body) {
         std::size_t begun = 1;
         try {
             for (; begun < parts; ++begun)
-                threads.emplace_back([&run, begun, end = TimeLimit::end()] {
+                threads.emplace_back([&run, begun, bounds = TimeLimit::bounds()] {
                     const FpEnvironment environment_of_host;
-                    const TimeLimit limit(end);
+                    const TimeLimit limit(bounds);
                     run(begun);
                 });
         } catch (const std::system_error&) {  // no more threads: this one does the rest

@@ -5,6 +5,7 @@
 #include "halflit/error.hpp"
 #include "sh/fp_environment.hpp"
 #include "sh/time_limit.hpp"
+#include "shading/out_of_time.hpp"
 
 #include <cstdint>
 #include <exception>
@@ -46,8 +47,8 @@ auto errors_of(const std::string& name, double time_limit_s, const Make& make) -
             return make();
         } catch (const LoadFailure& failure) {
             return failed(failure.error.code, failure.error.message);
-        } catch (const OutOfTime&) {
-            return failed(ErrorCode::limit, kOutOfTime);
+        } catch (const OutOfTime& found) {
+            return fail_out_of_time(found, printable(name) + ": ");
         } catch (const std::bad_alloc&) {
             return failed(ErrorCode::limit, "out of memory");
         } catch (const std::exception& error) {  // a decoder's, or the standard library's

@@ -8,6 +8,7 @@
 #include "apps/io/models/formats.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "sh/time_limit.hpp"
+#include "shading/out_of_time.hpp"
 
 #include <fmt/format.h>
 
@@ -65,8 +66,8 @@ Result<std::vector<std::string>> io::files_named_by(const std::string& path, con
         return row->files(read, folder_of(path), options);
     } catch (const LoadFailure&) {
         return std::vector<std::string>{};
-    } catch (const OutOfTime&) {
-        return fail(ErrorCode::limit, printable(path) + ": " + kOutOfTime);
+    } catch (const OutOfTime& found) {
+        return fail_out_of_time(found, printable(path) + ": ");
     }
 }
 

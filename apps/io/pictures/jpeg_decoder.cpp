@@ -97,7 +97,10 @@ struct Decoder {
     }
 
     [[nodiscard]] tl::unexpected<Error> error() const {
-        if (out_of_time) throw OutOfTime{};
+        if (out_of_time) {
+            check_time();
+            throw OutOfTime{};
+        }
         if (too_many_scans) return fail(ErrorCode::limit, fmt::format("JPEG: more than {} scans, which is max_jpeg_scans", max_scans));
         return fail(out_of_memory ? ErrorCode::limit : ErrorCode::bad_input, fmt::format("JPEG: {}", message));
     }

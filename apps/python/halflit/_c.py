@@ -9,6 +9,7 @@ import ctypes
 import functools
 import os
 import re
+import signal
 import threading
 from typing import Any, Dict, List
 
@@ -184,10 +185,35 @@ def function(name: str) -> Any:
 _PATHS = {"scene_load": 0, "scene_load_environment": 1, "write_image": 0}
 
 
+#: Functions that may take seconds, which Ctrl-C ends. Frames are told by halflit_execution.
+_LONG = frozenset((
+    "scene_load", "scene_load_memory", "scene_load_environment", "scene_set_environment", "scene_add_mesh", "scene_set_mesh", "scene_set_vertices",
+    "scene_set_material", "scene_pose", "scene_get_bounds", "camera_frame", "camera_views", "choose_picture",
+))  # fmt: skip
+_is_for_main: Any = None
+
+
+def stops_at_interrupt() -> bool:
+    """Ctrl-C ends a call of this thread: Python's own handler of it is in place, and runs as soon as the library returns."""
+    global _is_for_main
+    if _is_for_main is None:
+        from ._execution import is_for_main as _is_for_main  # which needs this module
+    return bool(_is_for_main()) and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 def call(name: str, *arguments: Any) -> None:
     """Calls a function that returns a code, and raises what it tells."""
     called = function(name)
-    code = called(*map(converted, called.argtypes, arguments, called.names))
+    given = map(converted, called.argtypes, arguments, called.names)
+    if name in _LONG and stops_at_interrupt():
+        stop = function("stop_at_interrupt")
+        try:
+            stop(1)
+            code = called(*given)
+        finally:
+            stop(0)
+    else:
+        code = called(*given)
     if code:
         path = arguments[_PATHS[name]] if name in _PATHS else None
         raise made(code, _told(function("last_error")().decode("utf-8", "replace")), path)

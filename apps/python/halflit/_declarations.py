@@ -186,6 +186,7 @@ FUNCTIONS = """
 const char* halflit_version(void);
 int32_t halflit_pixel_epoch(void);
 const char* halflit_last_error(void);
+void halflit_stop_at_interrupt(int32_t stops);
 int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 int32_t halflit_scene_create(halflit_scene** scene);
 int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);

@@ -16,7 +16,7 @@ from ._options import EXECUTION
 _CALLING = threading.local()  # lock: of the scene whose frame runs a callback in this thread
 
 
-def _is_for_main() -> bool:
+def is_for_main() -> bool:
     """The main thread draws, or waits for the frames of this thread."""
     return threading.current_thread() is threading.main_thread() or getattr(_CALLING, "is_for_main", False)
 
@@ -27,7 +27,7 @@ def _draws_for_main() -> None:
 
 def begins_helper() -> Optional[Callable[[], None]]:
     """What a thread has to call first whose frames this thread waits for: if this is the main thread, Ctrl-C ends them too."""
-    return _draws_for_main if _is_for_main() else None
+    return _draws_for_main if is_for_main() else None
 
 
 class SceneLock:
@@ -116,7 +116,7 @@ class Execution:
         self.raised: BaseException | None = None
         # With Python's own handler, Ctrl-C ends the frame: the handler runs as soon as the library returns.
         self.in_main = threading.current_thread() is threading.main_thread()
-        self.interrupts = _is_for_main() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        self.interrupts = _c.stops_at_interrupt()
         struct.stop_at_interrupt = self.interrupts
         self.key = (self.interrupts, *(options.get(name) for name in EXECUTION))
         for name, member in (("threads", "threads"), ("tile_size", "tile_size"), ("time_limit", "time_limit_s"), ("memory_limit",) * 2):

@@ -44,12 +44,16 @@ enum {
     HALFLIT_ERROR_IO = 4,         ///< a file that cannot be read or written
     HALFLIT_ERROR_LIMIT = 5,      ///< a limit was hit, or the memory is full
     HALFLIT_ERROR_INTERNAL = 6,   ///< a fault of the library
-    HALFLIT_ERROR_CANCELLED = 7   ///< halflit_execution.cancelled stopped the frame
+    HALFLIT_ERROR_CANCELLED = 7   ///< halflit_execution.cancelled stopped the frame, or SIGINT the call
 };
 
 /// Message of the calling thread's last call that failed: one line, without a full stop. Empty if none failed. Valid until the thread's
 /// next call that fails.
 HALFLIT_C_API const char* halflit_last_error(void);
+/// Whether SIGINT, as Ctrl-C sends it, ends this thread's later calls with HALFLIT_ERROR_CANCELLED, after the process's own handler has run
+/// (0). For calls that take long: those that load, take meshes or choose a picture end within 0.3 s. A scene that was being changed is as
+/// after a lack of memory: sound, but without all or a part of the change. See halflit_execution.stop_at_interrupt for frames.
+HALFLIT_C_API void halflit_stop_at_interrupt(int32_t stops);
 
 // ---- scenes and files --------------------------------------------------------------------------------------------------
 
@@ -346,7 +350,7 @@ typedef struct halflit_mesh {
     size_t index_count;       ///< elements of indices; 0 without
     int32_t material;         ///< index; -1: the default material, white, rough and metallic as glTF has it (-1)
     int32_t topology;         ///< HALFLIT_TOPOLOGY (triangles)
-    int32_t smooth;           ///< without normals: those of the smooth surface through the vertices, by the areas of the triangles (0)
+    int32_t smooth;           ///< without normals: those of the smooth surface through the positions, by the areas of the triangles (0)
     int32_t reserved;
 } halflit_mesh;
 HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);

@@ -243,8 +243,8 @@ void ImageStore::start() {
     try {
         threads_.reserve(count);
         while (threads_.size() < count)
-            threads_.emplace_back([this, end = TimeLimit::end()] {
-                const TimeLimit limit(end);
+            threads_.emplace_back([this, bounds = TimeLimit::bounds()] {
+                const TimeLimit limit(bounds);
                 run_jobs();
             });
     } catch (const std::system_error&) {  // no more threads: those that run do the work
