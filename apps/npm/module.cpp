@@ -1,5 +1,6 @@
 // The functions that the package's engine.js calls. A scene is a handle. Texts are UTF-8 and end with a zero byte; what is returned lives
 // until the next call for that scene.
+#include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/halflit/report/scene_description.hpp"
 #include "apps/npm/flag_table.hpp"
@@ -30,6 +31,7 @@ struct Handle {
 };
 
 std::string of_module;              ///< text that belongs to no scene
+Image to_encode;                    ///< the picture that encode() takes
 std::vector<std::uint8_t> encoded;  ///< the last file of encode()
 
 /// 0, or the error's exit code, with its words in `text`.
@@ -125,32 +127,51 @@ EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
         return {};
     });
 }
-/// As text: the scene, as `halflit info --json` describes it. parts: 1, with measures of each part.
-EMSCRIPTEN_KEEPALIVE int halflit_info(Handle* handle, const char* flags, int parts) {
+/// As text: the scene, as `halflit info` describes it. json, parts: 1 for one JSON object, and for measures of each part.
+EMSCRIPTEN_KEEPALIVE int halflit_info(Handle* handle, const char* flags, int json, int parts) {
     return attempt_on(*handle, [&]() -> Result<void> {
         if (auto applied = handle->session.apply(handle->scene, lines_of(flags)); !applied) return applied;
-        return cli::describe_scene(*handle->session.job(), true, parts != 0).map([&](std::string text) { handle->text = std::move(text); });
+        return cli::describe_scene(*handle->session.job(), json != 0, parts != 0).map([&](std::string text) {
+            handle->text = std::move(text);
+        });
     });
 }
 
-/// The file of a picture. name: its file's name, whose ending says the format. Its length, or -1, with the error's words in
-/// halflit_encoding_error().
-EMSCRIPTEN_KEEPALIVE int halflit_encode(const std::uint8_t* rgba8, int width, int height, const char* name) {
+/// The pixels that halflit_encode() takes, RGBA, which the caller fills. Null: there is no memory for them.
+EMSCRIPTEN_KEEPALIVE std::uint8_t* halflit_image(int width, int height) {
+    try {
+        to_encode = {};  // its memory first
+        to_encode = Image::make(width, height);
+        return to_encode.rgba8.data();
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
+/// The file of the picture of halflit_image(), which ends there. name: its file's name, whose ending says the format. 0, or the error's
+/// exit code, with its words in halflit_module_text().
+EMSCRIPTEN_KEEPALIVE int halflit_encode(const char* name) {
     const int failed = attempt(of_module, [&]() -> Result<void> {
         const auto format = output_format_of(name);
         if (!format) return tl::unexpected(format.error());
-        Image image = Image::make(width, height);
-        std::copy_n(rgba8, image.rgba8.size(), image.rgba8.data());
-        auto file = encode_image(image, *format);
+        auto file = encode_image(to_encode, *format);
         if (!file) return tl::unexpected(file.error());
         encoded = std::move(*file);
         return {};
     });
-    return failed != 0 ? -1 : static_cast<int>(encoded.size());
+    to_encode = {};
+    return failed;
 }
 EMSCRIPTEN_KEEPALIVE const std::uint8_t* halflit_encoded() { return encoded.data(); }
+EMSCRIPTEN_KEEPALIVE int halflit_encoded_size() { return static_cast<int>(encoded.size()); }
 EMSCRIPTEN_KEEPALIVE void halflit_forget_encoded() { encoded = {}; }
-EMSCRIPTEN_KEEPALIVE const char* halflit_encoding_error() { return of_module.c_str(); }
+EMSCRIPTEN_KEEPALIVE const char* halflit_module_text() { return of_module.c_str(); }
+
+/// " (did you mean NAME?)" if one of the names, one a line, is spelled like the word; otherwise nothing.
+EMSCRIPTEN_KEEPALIVE const char* halflit_did_you_mean(const char* word, const char* names) {
+    of_module = cli::did_you_mean(word, lines_of(names));
+    return of_module.c_str();
+}
 
 /// JSON of the flags that the module takes.
 EMSCRIPTEN_KEEPALIVE const char* halflit_flags() {

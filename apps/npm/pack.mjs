@@ -51,7 +51,10 @@ function type_of({ form, repeated }) {
   if (form.startsWith("FILE|")) type += " | ArrayBuffer | ArrayBufferView";
   return repeated ? `${type} | ReadonlyArray<${type}>` : type;
 }
-const options = table.flags.map((flag) => `  /** ${flag.help.replaceAll("*/", "* /")} */\n  ${camel(flag.names.at(-1))}?: ${type_of(flag)};`);
+// Where an option means something else than the flag.
+const kHelp = { "--timeout": "Stop loading after so many seconds, and each drawing after as many of its own, with code 5" };
+const help_of = (flag) => (kHelp[flag.names.at(-1)] ?? flag.help).replaceAll("*/", "* /");
+const options = table.flags.map((flag) => `  /** ${help_of(flag)} */\n  ${camel(flag.names.at(-1))}?: ${type_of(flag)};`);
 const types = text(output, "index.d.ts");
 writeFileSync(join(output, "index.d.ts"), `${types}
 /** The program's flags, by their names in camelCase; values as on the command line. */

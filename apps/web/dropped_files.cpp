@@ -21,7 +21,7 @@ std::string plain_name(std::string_view name) {
     while (!name.empty()) {
         const std::string_view part = name.substr(0, name.find('/'));
         name.remove_prefix(std::min(name.size(), part.size() + 1));
-        if (part == ".." && !parts.empty())
+        if (part == ".." && !parts.empty() && parts.back() != "..")
             parts.pop_back();
         else if (!part.empty() && part != ".")
             parts.push_back(part);
@@ -33,7 +33,7 @@ std::string plain_name(std::string_view name) {
 
 Result<std::vector<std::byte>> find_file(const std::string& name, std::size_t max_bytes, ErrorCode absent) {
     const auto found = store->files.find(name);
-    if (found == store->files.end()) return fail(absent, "no such file was dropped");
+    if (found == store->files.end()) return fail(absent, "no such file was given");
     if (found->second.size() > max_bytes)
         return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {}", found->second.size(), max_bytes));
     return found->second;

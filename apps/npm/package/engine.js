@@ -5,7 +5,8 @@ import { flags, pixelEpoch, version } from "./tables.js";
 
 const kSimdProbe = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
 const kRounds = 16;  // of files that name other files
-const kUsage = 2, kLimit = 5;  // exit codes of the program
+const kUsage = 2, kDamaged = 3, kFile = 4, kLimit = 5;  // exit codes of the program
+const kEncodings = ["png", "jpg", "jpeg", "bmp", "tga"];
 const text_bytes = new TextEncoder();
 
 export class HalflitError extends Error {
@@ -18,6 +19,16 @@ export class HalflitError extends Error {
 }
 
 const usage = (message) => new HalflitError(message, kUsage);
+const line_of = (error) => String(error?.message ?? error).split("\n")[0];
+const read_as = (name) => `read it first, as by await readFile(${name}) of node:fs/promises, or await fetch(${name})`;
+
+// null and undefined are no options.
+function options_of(given) {
+  if (given === null || given === undefined) return {};
+  if (Array.isArray(given) || typeof given !== "object")
+    throw usage(`options: expected an object, found ${Array.isArray(given) ? "an array" : typeof given}`);
+  return given;
+}
 
 // ---- the module ---------------------------------------------------------------------------------------------------------
 let code_of_host = null;  // name => WebAssembly.Module, its bytes or a Response, or a promise of these
@@ -27,20 +38,36 @@ export function set_code(load) {
   code_of_host = load;
 }
 
-async function compiled(code) {
-  const given = await code;
-  if (given instanceof WebAssembly.Module) return given;
-  if (typeof Response !== "undefined" && given instanceof Response) {
-    if (!given.ok) throw new Error(`${given.url}: status ${given.status}`);
-    return WebAssembly.compile(await given.arrayBuffer());
+async function compiled(name, code) {
+  let given;
+  try {
+    given = await code;
+  } catch (error) {
+    throw error instanceof HalflitError ? error : new HalflitError(`${name}: ${line_of(error)}`, kFile);
   }
-  return WebAssembly.compile(given);
+  if (given instanceof WebAssembly.Module) return given;
+  if (given?.ok === false) throw new HalflitError(`${name}: ${given.url}: status ${given.status}`, kFile);
+  try {
+    return await WebAssembly.compile(typeof given?.arrayBuffer === "function" ? await given.arrayBuffer() : given);
+  } catch (error) {
+    if (error instanceof TypeError) throw usage(`${name}: expected its bytes, a Response or a WebAssembly.Module`);
+    throw new HalflitError(`${name}: ${line_of(error)}`, error instanceof WebAssembly.CompileError ? kDamaged : kFile);
+  }
 }
 
-async function start({ wasm, wasm128, simd } = {}) {
-  const has_simd = simd ?? WebAssembly.validate(kSimdProbe), second = !has_simd ? null : wasm128 ?? (wasm ? null : code_of_host("halflit_wasm128.wasm"));
-  const [module, of_kernels] = await Promise.all([compiled(wasm ?? code_of_host("halflit.wasm")), second && compiled(second)]);
-  const core = await start_module(halflit_module, module, of_kernels);
+const of_host = (name) => {
+  if (!code_of_host) throw usage(`init: expected { wasm }, the code of ${name}: halflit/core has none of its own`);
+  return (async () => code_of_host(name))();  // what it throws is told by the promise
+};
+
+async function start(options) {
+  const { wasm, wasm128, simd } = options_of(options);
+  const code = wasm ?? of_host("halflit.wasm"), has_simd = simd ?? WebAssembly.validate(kSimdProbe);
+  const second = !has_simd ? null : wasm128 ?? (wasm ? null : of_host("halflit_wasm128.wasm"));
+  const [module, of_kernels] = await Promise.all([compiled("halflit.wasm", code), second && compiled("halflit_wasm128.wasm", second)]);
+  const core = await start_module(halflit_module, module, of_kernels).catch((error) => {
+    throw new HalflitError(`halflit.wasm: cannot be started: ${line_of(error)}`, kDamaged);
+  });
   core.ended = false;
   return core;
 }
@@ -71,7 +98,7 @@ function call(core, work) {
     if (error instanceof HalflitError) throw error;
     core.ended = true;
     const is_of_code = WebAssembly.Exception !== undefined && error instanceof WebAssembly.Exception;  // thrown where memory ends alone
-    throw new HalflitError(is_of_code ? "out of memory" : `the module ended: ${error.message ?? error}`, kLimit);
+    throw new HalflitError(is_of_code ? "out of memory" : `the module ended: ${line_of(error)}`, kLimit);
   }
 }
 
@@ -119,13 +146,32 @@ function value_text(flag, key, value) {
   throw usage(`${key}: expected a text or a number`);
 }
 
+const kNames = [...new Set([...flags.map((flag) => camel(flag.names.at(-1))), ...kOwn])].join("\n");
+function did_you_mean(core, word) {
+  const told = (at) => with_text(core, kNames, (names) => core.UTF8ToString(core._halflit_did_you_mean(at, names)));
+  return call(core, () => with_text(core, word, told));
+}
+
+// A message of the module with the options' names as the caller wrote them. Flags stay where the caller wrote flags.
+function in_callers_words(message, options) {
+  const keys = Object.keys(options).filter((key) => options[key] !== undefined && options[key] !== null);
+  return message.replace(/(?<![\w-])--[a-z][a-z0-9-]*/g, (word) => {
+    const flag = flag_of.get(word);
+    if (!flag) return word;
+    const key = keys.find((name) => flag_of.get(name) === flag);
+    if (key !== undefined) return key;
+    if (flag.names.includes("--size") && keys.includes("width")) return "width and height";
+    return keys.includes("flags") ? word : camel(flag.names.at(-1));
+  });
+}
+
 // The words of the command line that means these options.
-function flag_words(options) {
+function flag_words(core, options) {
   const words = [];
   for (const [key, value] of Object.entries(options)) {
     if (kOwn.has(key) || value === undefined || value === null) continue;
     const flag = flag_of.get(key);
-    if (!flag) throw usage(`unknown option ${key}`);
+    if (!flag) throw usage(`unknown option ${key}${did_you_mean(core, key)}`);
     const name = flag.names.at(-1);
     if (flag.form === "") {
       if (typeof value !== "boolean") throw usage(`${key}: expected true or false`);
@@ -149,7 +195,7 @@ async function bytes_of(given) {
   if (value === undefined || value === null) return null;
   if (typeof value === "string") return text_bytes.encode(value);
   if (typeof value.arrayBuffer === "function") {
-    if (value.ok === false) return null;  // a Response of a file that is not there
+    if (value.ok === false) return null;  // a Response for a file that is not there
     value = await value.arrayBuffer();
   }
   if (value instanceof ArrayBuffer) return new Uint8Array(value);
@@ -176,19 +222,19 @@ export class Picture {
     this.hash = this.report.pixel_hash;
   }
   encode(format) {
+    if (!kEncodings.includes(format)) throw usage(`encode: expected "png", "jpg", "bmp" or "tga", found ${JSON.stringify(format)}`);
     const { width, height, pixels } = this, expected = 4 * width * height;  // all may have been changed, or sent to another thread
-    if (pixels?.length !== expected) throw usage(`pixels: expected ${expected} bytes for ${width} x ${height}, found ${pixels?.length ?? "none"}`);
+    if (![width, height].every((side) => Number.isInteger(side) && side > 0))
+      throw usage(`picture: expected a size, found ${width} x ${height}`);
+    if (pixels?.length !== expected)
+      throw usage(`pixels: expected ${expected} bytes for ${width} x ${height}, found ${pixels?.length ?? "none"}`);
     return call(this.#core, (core) => {
-      const place = allocated(core, expected);
-      let size = -1;
-      try {
-        core.HEAPU8.set(pixels, place);
-        size = with_text(core, `picture.${format}`, (name) => core._halflit_encode(place, width, height, name));
-      } finally {
-        core._halflit_free(place);
-      }
-      if (size < 0) throw usage(core.UTF8ToString(core._halflit_encoding_error()));
-      const file = copied(core, core._halflit_encoded(), size);
+      const place = core._halflit_image(width, height);
+      if (place) core.HEAPU8.set(pixels, place);
+      const code = place ? with_text(core, `picture.${format}`, (name) => core._halflit_encode(name)) : kLimit;
+      if (code === kLimit) core.full = true;
+      if (code !== 0) throw new HalflitError(place ? core.UTF8ToString(core._halflit_module_text()) : "out of memory", code);
+      const file = copied(core, core._halflit_encoded(), core._halflit_encoded_size());
       core._halflit_forget_encoded();
       return file;
     });
@@ -203,6 +249,8 @@ const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new Fina
   if (!core.ended) core._halflit_close(handle);
 });
 
+const kBuiltIn = /^(demo$|sphere:|lights:)/;
+
 export class Scene {
   #core; #handle; #defaults; #resolve = null; #asked = new Set(); #environment = null; #environments = 0;
 
@@ -215,13 +263,18 @@ export class Scene {
   }
 
   static async open(source, options) {
-    const core = await running();
     const built_in = typeof source === "string";
+    if (built_in && !kBuiltIn.test(source)) {
+      const name = JSON.stringify(source);
+      throw usage(`${name}: expected the bytes of a model, or "demo", "sphere:N" or "lights:N"; ${read_as(name)}`);
+    }
+    const core = await running();
     const name = built_in ? source : options.name ?? "model";
     const bytes = built_in ? null : await bytes_of(source);
     if (!built_in && bytes === null) throw usage("expected a model's bytes, or the name of a built-in scene");
     const files = options.files && typeof options.files !== "function" ? options.files : {};
-    const listed = await Promise.all([...(files instanceof Map ? files : Object.entries(files))].map(async ([at, file]) => [at, await bytes_of(file)]));
+    const entries = [...(files instanceof Map ? files : Object.entries(files))];
+    const listed = await Promise.all(entries.map(async ([at, file]) => [at, await bytes_of(file)]));
     const handle = call(core, () => with_text(core, name, (text) => core._halflit_open(text)));
     const scene = new Scene(core, handle, options);
     try {
@@ -241,7 +294,7 @@ export class Scene {
   async #do(options, work) {
     for (let round = 0; ; ++round) {
       const core = this.#core, handle = this.#live();
-      const flags = flag_words(this.#with_environment(options)).join("\n");  // each time: another picture may have replaced the environment
+      const flags = flag_words(core, this.#with_environment(options)).join("\n");  // each time: another picture may have replaced the environment
       const code = call(core, () => with_text(core, flags, work));
       const found = round < kRounds ? await this.#ask() : [];
       if (found.length > 0) {
@@ -249,7 +302,7 @@ export class Scene {
         continue;
       }
       if (code === 0) return;
-      const message = core.UTF8ToString(core._halflit_text(handle));
+      const message = in_callers_words(core.UTF8ToString(core._halflit_text(handle)), options);
       // Memory never shrinks: new scenes get a new module, and this one goes with its last scene.
       if (code === kLimit && message.includes("out of memory")) core.full = true;
       throw new HalflitError(message, code);
@@ -287,10 +340,9 @@ export class Scene {
     return this.#handle;
   }
 
-  async render(options = {}) {
-    const all = { ...this.#defaults, ...options };
+  async render(options) {
     let picture = null;
-    await this.#do(all, (words) => {
+    await this.#do({ ...this.#defaults, ...options_of(options) }, (words) => {
       const code = this.#core._halflit_draw(this.#live(), words) || this.#core._halflit_report(this.#handle);
       if (code === 0) picture = new Picture(this.#core, this.#handle);
       return code;
@@ -298,15 +350,22 @@ export class Scene {
     return picture;
   }
 
-  async info({ parts = false, ...options } = {}) {
-    const all = { ...this.#defaults, ...options };
+  async #described(options, json, parts) {
     let text = "";
-    await this.#do(all, (words) => {
-      const code = this.#core._halflit_info(this.#live(), words, parts ? 1 : 0);
+    await this.#do({ ...this.#defaults, ...options }, (words) => {
+      const code = this.#core._halflit_info(this.#live(), words, json ? 1 : 0, parts ? 1 : 0);
       text = this.#core.UTF8ToString(this.#core._halflit_text(this.#handle));
       return code;
     });
-    return JSON.parse(text);
+    return text;
+  }
+  async info(options) {
+    const { parts = false, ...others } = options_of(options);
+    return JSON.parse(await this.#described(others, true, parts));
+  }
+  async describe(options) {
+    const { parts = false, json = false, ...others } = options_of(options);
+    return this.#described(others, json, parts);
   }
 
   free() {
@@ -321,9 +380,9 @@ export class Scene {
   }
 }
 
-export const load = (source, options = {}) => Scene.open(source, options);
+export const load = async (source, options) => Scene.open(source, options_of(options));
 
-export async function render(source, options = {}) {
+export async function render(source, options) {
   const scene = await load(source, options);
   try {
     return await scene.render();

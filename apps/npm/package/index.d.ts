@@ -1,9 +1,15 @@
+/// <reference lib="esnext.disposable" />
+
+/** A Blob, a Response, or another object that gives its bytes. */
+export interface BytesSource {
+  arrayBuffer(): Promise<ArrayBuffer>;
+}
 /** Bytes of a file. A text is UTF-8. A Response that is not `ok`, `null` and `undefined` mean that there is no such file. */
-export type FileSource = ArrayBuffer | ArrayBufferView | string | Blob | Response | null | undefined;
+export type FileSource = ArrayBuffer | ArrayBufferView | string | BytesSource | null | undefined;
 /** Files beside the model, by the names that it gives: its buffers and textures. Or a function that is asked for each that is missing. */
 export type Files = Record<string, FileSource> | Map<string, FileSource> | ((name: string) => FileSource | Promise<FileSource>);
 /** The model's bytes (glTF, GLB, STL, PLY, OBJ, OFF, 3MF), or the name of a built-in scene: "demo", "sphere:5000", "lights:16". */
-export type ModelSource = ArrayBuffer | ArrayBufferView | Blob | Response | "demo" | `sphere:${number}` | `lights:${number}`;
+export type ModelSource = ArrayBuffer | ArrayBufferView | BytesSource | "demo" | `sphere:${number}` | `lights:${number}`;
 
 /** A picture's options: those of the program's command line. */
 export interface RenderOptions extends FlagOptions {
@@ -51,38 +57,48 @@ export interface Info {
   [key: string]: unknown;
 }
 
+/** Uint8Array, from TypeScript 5.7 on with an ArrayBuffer, as Response, Blob and ImageData want it. */
+export type Bytes = ReturnType<Uint8ArrayConstructor["of"]>;
+export type Pixels = ReturnType<Uint8ClampedArrayConstructor["of"]>;
+
 export class Picture {
   private constructor();
   readonly width: number;
   readonly height: number;
   /** RGBA, rows from the top, not multiplied by alpha. */
-  readonly pixels: Uint8ClampedArray;
+  readonly pixels: Pixels;
   /** The hash that the program prints for these pixels. */
   readonly hash: string;
   readonly report: Report;
   /** The file of the picture. */
-  png(): Uint8Array;
-  encode(format: "png" | "jpg" | "bmp" | "tga"): Uint8Array;
+  png(): Bytes;
+  encode(format: "png" | "jpg" | "jpeg" | "bmp" | "tga"): Bytes;
 }
 
 /** A loaded model. It stays prepared from one picture to the next. */
-export class Scene {
+export class Scene implements Disposable {
   private constructor();
   /** Draws it by the options of load() and these. */
-  render(options?: RenderOptions): Promise<Picture>;
+  render(options?: RenderOptions | null): Promise<Picture>;
   /** Describes it; `parts`: with measures of each part. */
-  info(options?: RenderOptions & { parts?: boolean }): Promise<Info>;
-  /** Gives its memory back. */
+  info(options?: (RenderOptions & { parts?: boolean }) | null): Promise<Info>;
+  /** The text that `halflit info` prints; `json`: as one JSON object. */
+  describe(options?: (RenderOptions & { parts?: boolean; json?: boolean }) | null): Promise<string>;
+  /** Gives its memory back, as `using scene = await load(model)` does at the end of its block. */
   free(): void;
+  [Symbol.dispose](): void;
 }
 
 /** `code` is the exit code that the program has for the error. */
 export class HalflitError extends Error {
+  constructor(message: string, code: number);
   readonly code: number;
 }
 
+/** WebAssembly.Module, where the types of the host have it. */
+export type CompiledCode = typeof globalThis extends { WebAssembly: { Module: { prototype: infer Module } } } ? Module : object;
 /** A compiled module, its bytes, or a Response with them. */
-export type Code = WebAssembly.Module | ArrayBuffer | ArrayBufferView | Response;
+export type Code = CompiledCode | ArrayBuffer | ArrayBufferView | BytesSource;
 
 export interface InitOptions {
   /** halflit.wasm. */
@@ -93,13 +109,14 @@ export interface InitOptions {
   simd?: boolean;
 }
 
-/** Starts the module, which the first scene does otherwise. With options: a new one, for scenes that are loaded from then on. */
-export function init(options?: InitOptions): Promise<{ version: string; pixelEpoch: number; isa: string }>;
+/** Starts the module, which the first scene does otherwise. With options, {} too: a new one, for scenes that are loaded from
+ *  then on; the old one and its memory go with its last scene. */
+export function init(options?: InitOptions | null): Promise<{ version: string; pixelEpoch: number; isa: string }>;
 /** Loads a model. */
-export function load(source: ModelSource, options?: LoadOptions): Promise<Scene>;
+export function load(source: ModelSource, options?: LoadOptions | null): Promise<Scene>;
 /** Loads a model, draws it and frees it. */
-export function render(source: ModelSource, options?: LoadOptions): Promise<Picture>;
-/** Bytes of memory that the module has taken. */
+export function render(source: ModelSource, options?: LoadOptions | null): Promise<Picture>;
+/** Bytes of memory that the module has taken. They are given back with the module: see init(). */
 export function memory(): Promise<number>;
 export const version: string;
 /** Releases with the same number have the same pixels. */
