@@ -1,61 +1,21 @@
-// The functions that the package's engine.js calls. A scene is a handle. Texts are UTF-8 and end with a zero byte; what is returned lives
-// until the next call for that scene.
+// The functions that engine.js of the npm package calls, for the package and for the page.
+#include "apps/npm/module.hpp"
+
 #include "apps/halflit/program/spelling.hpp"
-#include "apps/halflit/report/run_report.hpp"
-#include "apps/halflit/report/scene_description.hpp"
-#include "apps/npm/flag_table.hpp"
-#include "apps/web/dropped_files.hpp"
 #include "apps/web/kernels_apart.hpp"
-#include "apps/web/picture_session.hpp"
 #include "halflit/image.hpp"
 
-#include <emscripten.h>
-#include <emscripten/heap.h>
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <new>
-#include <string>
-#include <vector>
 
 namespace {
 
 using namespace halflit;
-
-struct Handle {
-    web::FileStore files;
-    web::PictureSession session;
-    std::string scene, text;  ///< text: an error's words, or JSON
-};
+using web::Handle;
 
 std::string of_module;              ///< text that belongs to no scene
 Image to_encode;                    ///< the picture that encode() takes
 std::vector<std::uint8_t> encoded;  ///< the last file of encode()
-
-/// 0, or the error's exit code, with its words in `text`.
-template <class Work>
-int attempt(std::string& text, const Work& work) {
-    Result<void> done;
-    try {
-        done = work();
-    } catch (const std::bad_alloc&) {
-        done = fail(ErrorCode::limit, "out of memory");
-    }
-    if (done) return 0;
-    text = done.error().message;
-    return std::max(1, static_cast<int>(done.error().code));
-}
-
-template <class Work>
-int attempt_on(Handle& handle, const Work& work) {
-    web::use_files(&handle.files);
-    handle.files.wanted.clear();
-    return attempt(handle.text, work);
-}
-
-std::vector<std::string> lines_of(const std::string& text) { return cli::words_of(text, '\n'); }
 
 }  // namespace
 
@@ -103,39 +63,16 @@ EMSCRIPTEN_KEEPALIVE const char* halflit_wanted(Handle* handle) {
 
 /// Loads the scene, if the flags (one word a line) need it, without drawing it.
 EMSCRIPTEN_KEEPALIVE int halflit_prepare(Handle* handle, const char* flags) {
-    return attempt_on(*handle, [&] { return handle->session.apply(handle->scene, lines_of(flags)); });
+    return web::attempt_on(*handle, [&] { return handle->session.apply(handle->scene, web::lines_of(flags)); });
 }
 EMSCRIPTEN_KEEPALIVE int halflit_draw(Handle* handle, const char* flags) {
-    return attempt_on(*handle, [&] { return handle->session.draw(handle->scene, lines_of(flags)); });
+    return web::attempt_on(*handle, [&] { return handle->session.draw(handle->scene, web::lines_of(flags)); });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* halflit_text(Handle* handle) { return handle->text.c_str(); }
 EMSCRIPTEN_KEEPALIVE const std::uint8_t* halflit_pixels(Handle* handle) { return handle->session.picture().rgba8.data(); }
 EMSCRIPTEN_KEEPALIVE int halflit_width(Handle* handle) { return handle->session.picture().width; }
 EMSCRIPTEN_KEEPALIVE int halflit_height(Handle* handle) { return handle->session.picture().height; }
-
-/// As text: the report of the last picture, as that of `halflit render --report`.
-EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
-    return attempt(handle->text, [&]() -> Result<void> {
-        const cli::RenderJob* const job = handle->session.job();
-        if (job == nullptr) return fail(ErrorCode::usage, "there is no picture yet");
-        cli::Json report = cli::report_head("report");
-        report["scene"] = job->source.name;
-        cli::add_frame(report, *job, handle->session.rendered(), handle->session.picture());
-        report["peak_memory_bytes"] = emscripten_get_heap_size();  // never shrinks
-        handle->text = cli::to_text(report, true);
-        return {};
-    });
-}
-/// As text: the scene, as `halflit info` describes it. json, parts: 1 for one JSON object, and for measures of each part.
-EMSCRIPTEN_KEEPALIVE int halflit_info(Handle* handle, const char* flags, int json, int parts) {
-    return attempt_on(*handle, [&]() -> Result<void> {
-        if (auto applied = handle->session.apply(handle->scene, lines_of(flags)); !applied) return applied;
-        return cli::describe_scene(*handle->session.job(), json != 0, parts != 0).map([&](std::string text) {
-            handle->text = std::move(text);
-        });
-    });
-}
 
 /// The pixels that halflit_encode() takes, RGBA, which the caller fills. Null: there is no memory for them.
 EMSCRIPTEN_KEEPALIVE std::uint8_t* halflit_image(int width, int height) {
@@ -151,7 +88,7 @@ EMSCRIPTEN_KEEPALIVE std::uint8_t* halflit_image(int width, int height) {
 /// The file of the picture of halflit_image(), which ends there. name: its file's name, whose ending says the format. 0, or the error's
 /// exit code, with its words in halflit_module_text().
 EMSCRIPTEN_KEEPALIVE int halflit_encode(const char* name) {
-    const int failed = attempt(of_module, [&]() -> Result<void> {
+    const int failed = web::attempt(of_module, [&]() -> Result<void> {
         const auto format = output_format_of(name);
         if (!format) return tl::unexpected(format.error());
         auto file = encode_image(to_encode, *format);
@@ -169,13 +106,7 @@ EMSCRIPTEN_KEEPALIVE const char* halflit_module_text() { return of_module.c_str(
 
 /// " (did you mean NAME?)" if one of the names, one a line, is spelled like the word; otherwise nothing.
 EMSCRIPTEN_KEEPALIVE const char* halflit_did_you_mean(const char* word, const char* names) {
-    of_module = cli::did_you_mean(word, lines_of(names));
-    return of_module.c_str();
-}
-
-/// JSON of the flags that the module takes.
-EMSCRIPTEN_KEEPALIVE const char* halflit_flags() {
-    of_module = npm::flag_table();
+    of_module = cli::did_you_mean(word, web::lines_of(names));
     return of_module.c_str();
 }
 

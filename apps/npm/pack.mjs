@@ -3,6 +3,7 @@ import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs"
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { licences } from "../web/licences.mjs";
+import { module_code } from "../web/module_code.mjs";
 
 const [source, bin, libraries, output] = process.argv.slice(2);
 const text = (...parts) => readFileSync(join(...parts), "utf8");
@@ -14,19 +15,12 @@ cpSync(join(source, "LICENSE"), join(output, "LICENSE"));
 
 // ---- the modules' own code, as an ES module -----------------------------------------------------------------------------
 const glue = text(bin, "halflit_npm_main.js");
-// It asks these names where it runs. The package's own files load the code, so to it every host is the same, which has none of them.
-const kHosts = ["window", "importScripts", "process", "require", "document", "__filename"];
 writeFileSync(join(output, "module.js"), `// Emscripten's code around halflit.wasm.
-const halflit_module = ((${kHosts.join(", ")}) => {
-${glue}
-return halflit_module;
-})();
+const halflit_module = ${module_code(glue)};
 export default halflit_module;
 `);
 cpSync(join(bin, "halflit_npm_main.wasm"), join(output, "halflit.wasm"));
 cpSync(join(bin, "halflit_wasm128.wasm"), join(output, "halflit_wasm128.wasm"));
-
-writeFileSync(join(output, "kernels.js"), text(source, "apps/web/page/kernels.js").replace("async function start_module", "export async function start_module"));
 
 // ---- the flags, from the module's own table -----------------------------------------------------------------------------
 const { default: halflit_module } = await import(pathToFileURL(join(output, "module.js")));

@@ -1,26 +1,29 @@
-// Joins the page's sources, the two modules and the licences of what is in them into one file:
-//   node assemble.mjs PAGE_FOLDER BIN_FOLDER OUTPUT [LIBRARIES_FOLDER]
+// Joins the page's sources, the npm package's engine, the two modules and the licences of what is in them into one file:
+//   node assemble.mjs PAGE_FOLDER BIN_FOLDER OUTPUT LIBRARIES_FOLDER
 import { readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { resolve } from "node:path";
 import { gzipSync } from "node:zlib";
 import { all_licences } from "./licences.mjs";
+import { module_code, part_of_script } from "./module_code.mjs";
 
 const [page, bin, output, libraries] = process.argv.slice(2);
 const text = (file) => readFileSync(file, "utf8");
-const glue = text(`${bin}/halflit_page.js`);
-const licences = all_licences(libraries);
-for (const inside of [glue, licences]) if (/<\/script|<!--/i.test(inside)) throw new Error("a part of the page would end its own element");
+const kOfPackage = ["kernels", "engine"].map((name) => `${page}/../../npm/package/${name}.js`);
+const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64"), code_of = (name) => packed(readFileSync(`${bin}/${name}.wasm`));
+const code = module_code(text(`${bin}/halflit_page.js`));
 
 // The library's own tables, so that the page has no copy of them to keep.
-const library = await createRequire(import.meta.url)(resolve(bin, "halflit_page.js"))({ wasmBinary: readFileSync(`${bin}/halflit_page.wasm`) });
+const core = await new Function(`return ${code}`)()({ wasmBinary: readFileSync(`${bin}/halflit_page.wasm`) });
+const library = core.UTF8ToString(core._halflit_tables());
+const { version, pixel_epoch } = JSON.parse(library);
 
+// The page writes flags as words, so the engine's table of options is empty.
+const tables = `const version = ${JSON.stringify(version)}, pixelEpoch = ${pixel_epoch}, flags = [];`;
 const parts = {
-  "library.json": () => library.UTF8ToString(library._halflit_tables()),
-  "module.js": () => glue,
-  "licences.txt": () => licences.trim(),
-  "main.wasm": () => gzipSync(readFileSync(`${bin}/halflit_page.wasm`), { level: 9 }).toString("base64"),
-  "kernels.wasm": () => gzipSync(readFileSync(`${bin}/halflit_wasm128.wasm`), { level: 9 }).toString("base64"),
+  "library.json": library,
+  "worker.js": packed([`const halflit_module = ${code};`, tables, ...kOfPackage.map((file) => part_of_script(text(file))), text(`${page}/worker.js`)].join("\n")),
+  "licences.txt": all_licences(libraries).trim(),
+  "main.wasm": code_of("halflit_page"),
+  "kernels.wasm": code_of("halflit_wasm128"),
 };
-const whole = text(`${page}/page.html`).replace(/@@([a-z_.]+)@@/g, (_, name) => (parts[name] ? parts[name]() : text(`${page}/${name}`).trim()));
-writeFileSync(output, whole);
+for (const part of Object.values(parts)) if (/<\/script|<!--/i.test(part)) throw new Error("a part of the page would end its own element");
+writeFileSync(output, text(`${page}/page.html`).replace(/@@([a-z_.]+)@@/g, (_, name) => parts[name] ?? text(`${page}/${name}`).trim()));

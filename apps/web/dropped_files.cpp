@@ -12,8 +12,8 @@
 namespace halflit {
 namespace {
 
-web::FileStore files_of_page;
-web::FileStore* store = &files_of_page;
+web::FileStore no_files;
+web::FileStore* store = &no_files;
 
 /// The name without "." and, where it can be resolved, without "..".
 std::string plain_name(std::string_view name) {
@@ -47,13 +47,11 @@ void want(std::string name) {
 
 namespace web {
 
-void use_files(FileStore* other) { store = other != nullptr ? other : &files_of_page; }
+void use_files(FileStore* other) { store = other != nullptr ? other : &no_files; }
 
 std::vector<std::byte>& add_file(const std::string& name, std::vector<std::byte> bytes) {
     return store->files[plain_name(name)] = std::move(bytes);
 }
-
-void forget_files() { *store = {}; }
 
 }  // namespace web
 

@@ -16,12 +16,10 @@ struct FileStore {
     std::vector<std::string> wanted;
 };
 
-/// From now on, files are those of this store, which outlives its use; null: those of the page.
+/// From now on, files are those of this store, which outlives its use; null: there are none.
 void use_files(FileStore* store);
 
 /// Adds or replaces a file of the store in use. `name` may have folders before it, with '/'. The bytes are valid until then.
 std::vector<std::byte>& add_file(const std::string& name, std::vector<std::byte> bytes);
-/// Forgets the files, and the names that were asked for.
-void forget_files();
 
 }  // namespace halflit::web

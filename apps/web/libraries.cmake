@@ -1,15 +1,11 @@
 # Decoders of models and pictures, compiled from Debian's sources that apps/web/sources.sh has unpacked in HALFLIT_WEB_LIBRARIES: only what
 # reads. Their SIMD versions stay out: they give the same bits.
-#   HALFLIT_WEB_HAS_LIBRARIES  1 or 0
-#   halflit_web_libraries      all of them, with their folders of headers; without the sources, nothing
-set(HALFLIT_WEB_LIBRARIES "" CACHE PATH "Folder of the libraries' sources; empty: the browser decodes JPEG and WebP, and nothing unpacks \
-3MF, Draco and meshopt")
-add_library(halflit_web_libraries INTERFACE)
-set(HALFLIT_WEB_HAS_LIBRARIES 0)
+#   halflit_web_libraries  all of them, with their folders of headers; without the sources, there is no such target
+set(HALFLIT_WEB_LIBRARIES "" CACHE PATH "Folder of the libraries' sources; empty: neither the page nor the npm package is made")
 if(NOT HALFLIT_WEB_LIBRARIES)
     return()
 endif()
-set(HALFLIT_WEB_HAS_LIBRARIES 1)
+add_library(halflit_web_libraries INTERFACE)
 set(made ${CMAKE_CURRENT_BINARY_DIR}/libraries)
 
 # Folder of a package's source; its name has the version. The version's first three numbers go to `version`.

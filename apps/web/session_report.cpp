@@ -2,6 +2,7 @@
 
 #include "apps/halflit/flags/plan_names.hpp"
 #include "apps/viewer/orbit_camera.hpp"
+#include "halflit/version.hpp"
 #include "sh/lobe_error.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -83,7 +84,7 @@ std::string picture_report(const cli::RenderJob& job, const RenderReport& report
     int bands = 0;
     for (const EnvironmentUse& use : report.environment) bands = std::max(bands, use.bands);
     return fmt::format(
-        R"({{"width":{},"height":{},"hash":"{:016x}","isa":"{}","apply_ms":{:.2f},"render_ms":{:.2f},)"
+        R"({{"width":{},"height":{},"pixel_hash":"{:016x}","isa":"{}","apply_ms":{:.2f},"render_ms":{:.2f},)"
         R"("shadows_ms":{:.2f},"tiles_ms":{:.2f},"triangles":{},"lights":{},"exposure":{},"bands":{},"bound":{},"within":{},"samples":{},)"
         R"("view":{},"lobes":{},"animations":{},)"
         R"("choices":{},"warnings":{}}})",
@@ -118,9 +119,9 @@ std::string table_report() {
         return fmt::format(R"({{"name":{},"takes_wrap":{},"wrap":{},"power":{},"power_per_wrap":{},"normalize":{}}})",
                            json_text(model.name), model.takes_wrap, model.wrap, model.power, model.power_per_wrap, model.normalize);
     };
-    return fmt::format(R"({{"usual_wrap":{},"lobes":{},"specular":{},"shadows":{},"tonemap":{}}})", kUsualWrap, list_of(kNamedLobes, lobe),
-                       list_of(cli::kSpecularNames, json_text), list_of(cli::kShadowModeNames, json_text),
-                       list_of(cli::kToneCurveNames, json_text));
+    return fmt::format(R"({{"version":{},"pixel_epoch":{},"usual_wrap":{},"lobes":{},"specular":{},"shadows":{},"tonemap":{}}})",
+                       json_text(version()), kPixelEpoch, kUsualWrap, list_of(kNamedLobes, lobe), list_of(cli::kSpecularNames, json_text),
+                       list_of(cli::kShadowModeNames, json_text), list_of(cli::kToneCurveNames, json_text));
 }
 
 }  // namespace halflit::web

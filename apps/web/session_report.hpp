@@ -16,7 +16,7 @@ namespace halflit::web {
 /// A lobe's values at `samples` cosines from -1 to 1, its series of `bands` bands there, the bands, and the error of the series.
 [[nodiscard]] std::string lobe_report(const Lobe& lobe, int bands, int samples);
 
-/// The library's named lobes, and the names of its choices.
+/// The library's version, its named lobes, and the names of its choices.
 [[nodiscard]] std::string table_report();
 
 /// The text as a JSON string.

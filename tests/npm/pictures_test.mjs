@@ -1,10 +1,9 @@
 // Pictures of the npm package against the program's, by hash: scenes of tests/web, formats and decoders, and the models of HALFLIT_ASSETS.
 import { spawnSync } from "node:child_process";
-import { copyFileSync, existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, readFileSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { check, end, native_hash, program, run, source, work, write_points, write_squares, write_textured_model } from "../web/harness.mjs";
+import { check, end, native_hash, program, source, work, write_3mf, write_points, write_textured_model, write_webp_model } from "../web/harness.mjs";
 import { begin } from "./project.mjs";
-import { zip_of } from "./zip.mjs";
 
 const { halflit } = await begin();
 const beside = (folder) => (name) => {
@@ -31,27 +30,6 @@ async function same(scene, flags, folder = work) {
   const expected = native(scene, flags, folder), found = await drawn(scene, flags, folder);
   check([scene, ...flags].join(" "), found === expected, `${found}, native ${expected}`);
   return found === expected;
-}
-
-// A tetrahedron with a colour for each corner of a face.
-function write_3mf() {
-  const model = `<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>
-    <basematerials id="1"><base name="a" displaycolor="#E04020"/><base name="b" displaycolor="#2060E0"/></basematerials>
-    <object id="2" type="model" pid="1" pindex="0"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/><vertex x="0" y="10" z="0"/>
-    <vertex x="0" y="0" z="10"/></vertices><triangles><triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3" p1="1"/>
-    <triangle v1="1" v2="2" v3="3"/><triangle v1="2" v2="0" v3="3" p1="1"/></triangles></mesh></object></resources><build><item objectid="2"/></build></model>`;
-  const relations = `<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r"
-    Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>`;
-  writeFileSync(join(work, "part.3mf"), zip_of({ "_rels/.rels": relations, "3D/3dmodel.model": model }));
-}
-
-// A WebP picture on a card.
-function write_webp_model() {
-  run(["demo", "--size", "96x80", "-o", "photo.webp", "--quiet"]);
-  write_squares("card", {
-    nodes: [{ mesh: 0 }], materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 } }],
-    extensionsUsed: ["EXT_texture_webp"], textures: [{ extensions: { EXT_texture_webp: { source: 0 } } }], images: [{ uri: "photo.webp", mimeType: "image/webp" }],
-  });
 }
 
 copyFileSync(join(source, "apps/examples/knot.glb"), join(work, "knot.glb"));

@@ -1,10 +1,11 @@
-// What the tests of the page share: the program to compare with, models, and the page's state. Both tests are called as
+// What the tests of the page share: the program to compare with, models, and the page's state. They are called as
 //   node TEST.mjs PROGRAM PAGE SOURCE_FOLDER WORK_FOLDER
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { find_chromium } from "./chromium.mjs";
+import { zip_of } from "../npm/zip.mjs";
+import { Page, find_chromium } from "./chromium.mjs";
 
 const [program, page_file, source, work] = process.argv.slice(2).map((path) => resolve(path));
 const kSkipped = 77;
@@ -87,16 +88,57 @@ export function write_points() {
   writeFileSync(join(work, "dots.ply"), header + Array.from({ length: count }, (_, i) => `${point(i)}\n`).join(""));
 }
 
+// A tetrahedron with a colour for each corner of a face.
+export function write_3mf() {
+  const model = `<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>
+    <basematerials id="1"><base name="a" displaycolor="#E04020"/><base name="b" displaycolor="#2060E0"/></basematerials>
+    <object id="2" type="model" pid="1" pindex="0"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/><vertex x="0" y="10" z="0"/>
+    <vertex x="0" y="0" z="10"/></vertices><triangles><triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3" p1="1"/>
+    <triangle v1="1" v2="2" v3="3"/><triangle v1="2" v2="0" v3="3" p1="1"/></triangles></mesh></object></resources><build><item objectid="2"/></build></model>`;
+  const relations = `<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r"
+    Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>`;
+  writeFileSync(join(work, "part.3mf"), zip_of({ "_rels/.rels": relations, "3D/3dmodel.model": model }));
+}
+
+// A WebP picture on a card.
+export function write_webp_model() {
+  run(["demo", "--size", "96x80", "-o", "photo.webp", "--quiet"]);
+  write_squares("card", {
+    nodes: [{ mesh: 0 }], materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 } }],
+    extensionsUsed: ["EXT_texture_webp"], textures: [{ extensions: { EXT_texture_webp: { source: 0 } } }], images: [{ uri: "photo.webp", mimeType: "image/webp" }],
+  });
+}
+
 export const idle = "window.halflit && halflit.current().shown && halflit.current().idle";
-export const shown_hash = (page) => page.value("halflit.current().shown.report.hash");
+export const shown_hash = (page) => page.value("halflit.current().shown.report.pixel_hash");
+export const text_of = (page, id) => page.value(`document.getElementById("${id}").hidden ? "" : document.getElementById("${id}").textContent`);
+export const command_of = (page) => page.value("document.getElementById('command').value");
 export const words_of = (command) => command.replace(/ -o .*/, "").match(/'[^']*'|\S+/g).slice(1).map((word) => word.replace(/^'|'$/g, ""));
+
+// Opens files of the test's folder; the first one is the model.
+export async function open_model(page, files) {
+  await page.choose_files("#files", files.map((file) => join(work, file)));
+  await page.until(`halflit.current().state.scene === '${files[0]}' && halflit.current().idle`);
+}
+
+// A page of its own for one test.
+export async function with_page(options, hash, test) {
+  const page = await Page.open(address + hash, options);
+  try {
+    await test(page);
+  } catch (error) {
+    check(`${test.name} runs: ${error.message}`, false);
+  } finally {
+    await page.close();
+  }
+}
 
 // Answers of an engine of its own, made in the page, for one task after the other: [kind, task].
 export async function answers_of(page, module, names, tasks) {
   const files = names.map((name) => ({ name, base64: readFileSync(join(work, name)).toString("base64") }));
   return page.value(`(async () => {
     const engine = new halflit.Engine(${JSON.stringify(module)});
-    const files = ${JSON.stringify(files)}.map(({ name, base64 }) => ({ name, bytes: Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer }));
+    const files = ${JSON.stringify(files)}.map(({ name, base64 }) => ({ name, file: Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)).buffer }));
     await engine.started;
     await engine.ask("files", { files });
     const found = [];

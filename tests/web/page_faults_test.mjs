@@ -2,25 +2,11 @@
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { deflateRawSync } from "node:zlib";
-import { Page } from "./chromium.mjs";
-import { address, answers_of, begin, check, end, idle, native_hash, shown_hash, words_of, work, write_squares } from "./harness.mjs";
+import { answers_of, begin, check, command_of, end, idle, native_hash, open_model, shown_hash, text_of, with_page, words_of, work, write_squares } from "./harness.mjs";
 
-const text_of = (page, id) => page.value(`document.getElementById("${id}").hidden ? "" : document.getElementById("${id}").textContent`);
-const command_of = (page) => page.value("document.getElementById('command').value");
 const view_of = async (page) => JSON.parse(await page.value("JSON.stringify(view_of(halflit.current().state))"));
 const report_of = async (page) => JSON.parse(await page.value("JSON.stringify(halflit.current().shown.report)"));
 const away = (view) => Math.hypot(...view.position.map((x, i) => x - view.target[i]));
-
-async function with_page(options, hash, test) {
-  const page = await Page.open(address + hash, options);
-  try {
-    await test(page);
-  } catch (error) {
-    check(`${test.name} runs: ${error.message}`, false);
-  } finally {
-    await page.close();
-  }
-}
 
 // The library is unpacked when the test calls go().
 const kHeld = `{
@@ -150,14 +136,9 @@ async function option_as_scene(page) {
   check("a link with an option as its scene: the command line has it as a file", command.startsWith("halflit ./--report=x --size") && command.endsWith(" -o ./--report=x.png"), command);
 }
 
-async function open_model(page, name, files) {
-  await page.choose_files("#files", files.map((file) => join(work, file)));
-  await page.until(`halflit.current().state.scene === '${name}' && halflit.current().idle`);
-}
-
 async function far_model(page) {
   await page.until(idle);
-  await open_model(page, "far.gltf", ["far.gltf", "far.bin"]);
+  await open_model(page, ["far.gltf", "far.bin"]);
   const before = (await report_of(page)).view;
   await page.drag({ x: 400, y: 300 }, { x: 440, y: 290 });
   await page.until(idle);
@@ -193,7 +174,7 @@ async function first_motion(page) {
   await page.until(idle);
   const files = (name) => [`${name}.gltf`, `${name}.bin`], size = "document.querySelector('[name=\"size\"]')";
   for (const [shape, name] of [["640x360", ""], ["360x640", ""], ["640x360", "flat"], ["360x640", "flat"], ["640x360", "wide"], ["640x360", "far"]]) {
-    if (name) await open_model(page, `${name}.gltf`, files(name));
+    if (name) await open_model(page, files(name));
     await page.value("document.getElementById('reset_view').click()");
     await page.value(`${size}.value = "${shape}"; ${size}.dispatchEvent(new Event("input", { bubbles: true }))`);
     await page.until(idle);

@@ -10,7 +10,7 @@ const kFiles = ["knot.glb", "textured.gltf", "textured.bin", "photo.jpg", "ball.
 // Every scene by one module, one after the other.
 async function compare_scenes(page, module, scenes, expected) {
   const found = await answers_of(page, module, kFiles, scenes.map(([scene, ...flags]) => ["draw", { scene, flags }]));
-  const isa = module === "simd" ? "wasm128" : "scalar", told = (answer) => answer.error || `${answer.report.hash},${answer.report.isa}`;
+  const isa = module === "simd" ? "wasm128" : "scalar", told = (answer) => answer.error || `${answer.report.pixel_hash},${answer.report.isa}`;
   scenes.forEach((scene, i) => check(`${module}: ${scene.join(" ")}`, told(found[i]) === `${expected[i]},${isa}`, `${told(found[i])}, native ${expected[i]}`));
 }
 
@@ -55,7 +55,7 @@ async function test_page(page) {
   check("the command line gives the picture of all controls", native_hash(words_of(full)) === full_hash, full);
 
   // The PNG of the page.
-  const png = await page.value("(async () => { const { shown } = halflit.current(); const bytes = new Uint8Array(await (await png_of(new Uint8Array(shown.pixels), shown.width, shown.height)).arrayBuffer()); let text = ''; for (const b of bytes) text += String.fromCharCode(b); return btoa(text); })()");
+  const png = await page.value("(async () => { const bytes = (await png_of_shown()).file; let text = ''; for (const b of bytes) text += String.fromCharCode(b); return btoa(text); })()");
   writeFileSync(join(work, "page.png"), Buffer.from(png, "base64"));
   check("the page's PNG has the program's pixels", spawnSync(program, ["diff", "native.png", "page.png"], { cwd: work }).status === 0);
 

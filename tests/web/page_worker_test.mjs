@@ -25,14 +25,14 @@ const lines = readFileSync(`${source}/tests/web/scenes.txt`, "utf8").split("\n")
 const expected = new Map(lines.map((line) => [line, native_hash(line.split(" "))]));
 for (const isa of ["wasm128", "scalar"]) {
   let answered = null;
-  const context = createContext({ console, WebAssembly, performance, TextDecoder, URL, Uint8Array, Blob, setTimeout, importScripts() {},
+  const context = createContext({ console, WebAssembly, performance, TextDecoder, TextEncoder, URL, Uint8Array, Blob, setTimeout, importScripts() {},
     self: { location: { href: "" } }, location: { href: "" }, postMessage: (answer) => answered(answer) });
-  runInContext(["module_code", "kernels_code", "worker_code"].map(element).join("\n"), context);
+  runInContext(Buffer.from(unpacked("worker_code")).toString(), context);
   const ask = (task) => new Promise((resolve) => { answered = resolve; context.onmessage({ data: { ...task, id: 1 } }); });
-  await ask({ kind: "start", wasm: unpacked("main_wasm"), wasm128: isa === "wasm128" ? unpacked("kernels_wasm") : null });
+  await ask({ kind: "start", wasm: unpacked("main_wasm"), wasm128: unpacked("kernels_wasm"), simd: isa === "wasm128" });
   for (const line of lines) {
     const [scene, ...flags] = line.split(" "), answer = await ask({ kind: "draw", scene, flags });
-    const found = answer.error ?? `${answer.report.hash},${answer.report.isa}`;
+    const found = answer.error ?? `${answer.report.pixel_hash},${answer.report.isa}`;
     check(line, found === `${expected.get(line)},${isa}`, `${found}, native ${expected.get(line)}`);
   }
   const compared = await ask({ kind: "compare", scene: "demo", flags: ["--size", "64x48"] });

@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { createContext, runInContext } from "node:vm";
+import { part_of_script } from "../../apps/web/module_code.mjs";
 
 const folder = process.argv[2];
 let failures = 0;
@@ -32,10 +33,10 @@ const kLibrary = {
 };
 
 // What the scripts define, by name. A script's constants are not members of its global object.
-function load(scripts, globals, names) {
+function load(scripts, globals, names, before = "") {
   const context = createContext({ console, URLSearchParams, Blob, Uint8Array, setTimeout, ...globals });
   const text = scripts.map((name) => readFileSync(join(folder, name), "utf8")).join("\n");
-  return runInContext(`${text}\n;({ ${names.map((name) => `get ${name}() { return ${name}; }`).join(", ")} })`, context);
+  return runInContext(`${before}\n${text}\n;({ ${names.map((name) => `get ${name}() { return ${name}; }`).join(", ")} })`, context);
 }
 
 function test_links() {
@@ -118,57 +119,71 @@ function test_controls() {
   check("controls: and set to what was chosen", () => tick(page.kDefaults, "exposure_chosen", false).exposure === 0.7);
 }
 
-async function test_files() {
-  const { with_files, read_files } = load(["files.js"], {}, ["with_files", "read_files"]);
-  const names = (list) => list.map((file) => `${file.name} ${file.bytes}`);
+function test_files() {
+  const { with_files, chosen_of } = load(["files.js"], {}, ["with_files", "chosen_of"]);
+  const names = (list) => list.map(({ name, file }) => `${name} ${file}`);
   check("files: a file replaces one of the same name", () =>
-    same(names(with_files([{ name: "a.glb", bytes: 1 }, { name: "b.hdr", bytes: 2 }], [{ name: "b.hdr", bytes: 3 }])), ["a.glb 1", "b.hdr 3"]));
-  const read = await read_files([{ name: "a\n--samples\n16.glb", file: { arrayBuffer: async () => new ArrayBuffer(1) } }]);
-  check("files: names have no control characters", () => read.model === "a_--samples_16.glb" && read.files[0].name === read.model);
+    same(names(with_files([{ name: "a.glb", file: 1 }, { name: "b.hdr", file: 2 }], [{ name: "b.hdr", file: 3 }])), ["a.glb 1", "b.hdr 3"]));
+  const chosen = chosen_of([{ name: "a\n--samples\n16.glb", file: 1 }]);
+  check("files: names have no control characters", () => chosen.model === "a_--samples_16.glb" && chosen.files[0].name === chosen.model);
+  const several = chosen_of(["x/part.stl", "sky.hdr", "MODEL.3MF"].map((name) => ({ name, file: 1 })));
+  check("files: the model of the fewest folders is drawn", () => several.model === "MODEL.3MF" && several.sky === "sky.hdr");
 }
 
-// The worker with a module of the test's own, whose memory has 64 bytes.
+function test_words() {
+  const { counted } = load(["state.js", "files.js"], { kLibrary }, ["counted"]);
+  check("words: one is singular, all others plural", () =>
+    same([counted(0, "light"), counted(1, "light"), counted(2, "band"), counted("1", "code"), counted("0.5", "code"), counted(158006, "triangle")],
+      ["0 lights", "1 light", "2 bands", "1 code", "0.5 codes", "158,006 triangles"]));
+}
+
+// The worker and the engine with a module of the test's own, whose memory has 64 bytes.
 async function test_worker() {
-  const memory = new Uint8Array(64), answers = [];
-  let place = 8, closed = 0;
+  const memory = new Uint8Array(64), answers = [], opened = [], closed = [];
+  let place = 8, code = 0;
   const core = {
-    HEAPU8: memory, lengthBytesUTF8: (text) => text.length, stringToUTF8: (text, at) => memory.set(new TextEncoder().encode(text + "\0"), at),
-    UTF8ToString: () => "{}", _halflit_allocate: () => place, _halflit_free: () => {}, _halflit_forget_files: () => {}, _halflit_add_file: () => {},
-    _halflit_draw: () => 0, _halflit_pixels: () => 0, _halflit_report: () => 0, _halflit_width: () => 1, _halflit_height: () => 1,
+    HEAPU8: memory, lengthBytesUTF8: () => 8, stringToUTF8: () => {}, UTF8ToString: (at) => ({ 1: "{}", 2: "a.glb: damaged", 3: "scalar" })[at] ?? "",
+    _halflit_allocate: () => place, _halflit_free: () => {}, _halflit_isa: () => 3, _halflit_wanted: () => 0, _halflit_add_file: () => place,
+    _halflit_open: () => opened.push(opened.length + 1), _halflit_close: (handle) => closed.push(handle), _halflit_prepare: () => code, _halflit_draw: () => code,
+    _halflit_report: () => 0, _halflit_text: () => (code ? 2 : 1), _halflit_pixels: () => 0, _halflit_width: () => 1, _halflit_height: () => 1,
   };
-  const bitmap = { width: 2, height: 3, close() { ++closed; this.width = this.height = 0; } };
-  const globals = {
-    WebAssembly, halflit_module: async () => core, postMessage: (answer) => answers.push(answer), createImageBitmap: async () => bitmap,
-    OffscreenCanvas: class { getContext() { return { drawImage() {}, getImageData: (x, y, width, height) => ({ width, height }) }; } },
-  };
-  const worker = load(["kernels.js", "worker.js"], globals, ["onmessage", "plain_jpeg", "decoded", "queue"]);
+  const of_package = ["kernels", "engine"].map((name) => part_of_script(readFileSync(join(folder, `../../npm/package/${name}.js`), "utf8"))).join("\n");
+  const globals = { WebAssembly, TextEncoder, ArrayBuffer, halflit_module: async () => core, postMessage: (answer) => answers.push(answer), flags: [], version: "", pixelEpoch: 0, onmessage: null };
+  const worker = load(["worker.js"], globals, ["onmessage", "queue"], of_package);
   const ask = async (task) => {
     worker.onmessage({ data: { ...task, id: answers.length } });
     await worker.queue;
     return answers.at(-1);
   };
-  await ask({ kind: "start" });
-  const drawn = await ask({ kind: "draw", scene: "demo", flags: ["--samples", "1"] });
-  check("worker: it draws", () => drawn.width === 1 && !drawn.error);
-  const broken = await ask({ kind: "draw", scene: "demo", flags: ["--light", "x\n--samples\n16"] });
-  check("worker: a word with a line break is refused, as flags are separated by line breaks", () => /line break/.test(broken.error));
+  const draw = (scene, ...flags) => ask({ kind: "draw", scene, flags });
+  const started = await ask({ kind: "start", wasm: new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]), simd: false });
+  check("worker: it says which kernels draw", () => started.isa === "scalar");
+  const drawn = await draw("demo", "--samples", "1");
+  check("worker: it draws", () => drawn.width === 1 && drawn.pixels.byteLength === 4 && !drawn.error);
+  await draw("demo", "--samples", "4");
+  check("worker: a scene stays open between its pictures", () => opened.length === 1 && closed.length === 0);
+  await draw("sphere:500");
+  check("worker: another scene closes it", () => opened.length === 2 && same(closed, [1]));
+  await ask({ kind: "files", files: [{ name: "a.glb", file: new Uint8Array([1, 2, 3]).buffer }] });
+  check("worker: new files close the scene too", () => same(closed, [1, 2]));
+  await draw("a.glb");
+  check("worker: a dropped file is given to the module", () => same([...memory.subarray(8, 11)], [1, 2, 3]));
+  const broken = await draw("demo", "--light", "x\n--samples\n16");
+  check("worker: a word with a line break is refused, as flags are separated by line breaks", () => /line break/.test(broken.error) && !broken.ended);
+  code = 3;
+  const damaged = await draw("a.glb");
+  check("worker: the module's error is told, and the worker goes on", () => /damaged/.test(damaged.error) && !damaged.ended);
+  code = 0;
   const of_code = new WebAssembly.Exception(new WebAssembly.Tag({ parameters: ["i32"] }), [5246800]);  // as C++ throws
   core._halflit_draw = () => { throw of_code; };
-  const thrown = await ask({ kind: "draw", scene: "demo", flags: [] });
+  const thrown = await draw("demo");
   check("worker: an exception of the module says that memory ended", () => thrown.error === "out of memory" && thrown.ended);
   place = 0;
   memory.fill(7);
-  const files = await ask({ kind: "files", files: [{ name: "a.glb", bytes: new Uint8Array([1, 2, 3]).buffer }] });
+  await ask({ kind: "files", files: [{ name: "a.glb", file: new Uint8Array([1, 2, 3]).buffer }] });
+  const full = await draw("a.glb");
   check("worker: without memory nothing is written", () => memory.every((byte) => byte === 7));
-  check("worker: without memory it ends and says so", () => files.error === "out of memory" && files.ended);
-
-  const image = await worker.decoded(new Uint8Array([1, 2, 3]));
-  check("worker: a decoded picture has its size, and the browser's copy is freed", () => image.width === 2 && image.height === 3 && closed === 1);
-  const segment = (marker, ...data) => [0xff, marker, 0, 2 + data.length, ...data];
-  const kept = [...segment(0xe0, 1), ...segment(0xdb, 2), 0xff, 0xda, 0, 2, 9, 9];
-  const file = [0xff, 0xd8, ...segment(0xe0, 1), 0xff, 0xff, ...segment(0xe1, 5, 5), 0xff, ...segment(0xe2, 6), ...segment(0xdb, 2), 0xff, 0xda, 0, 2, 9, 9];
-  const plain = [...new Uint8Array(await worker.plain_jpeg(new Uint8Array(file)).arrayBuffer())];
-  check("worker: Exif and profiles are cut out of a JPEG, behind fill bytes too", () => same(plain, [0xff, 0xd8, ...kept]));
+  check("worker: without memory it ends and says so", () => full.error === "out of memory" && full.ended);
 }
 
 async function test_engine() {
@@ -191,8 +206,9 @@ async function test_engine() {
   const within = (promise) => Promise.race([promise, new Promise((resolve) => setTimeout(resolve, 200, { late: true }))]);
   const { Engine } = load(["engine.js"], globals(class {}), ["Engine"]);
 
-  const engine = new Engine("simd"), worker = workers[0], files = engine.ask("files", {}), draw = engine.ask("draw", {});
+  const engine = new Engine("simd"), files = engine.ask("files", {}), draw = engine.ask("draw", {});
   await later();
+  const worker = workers[0];
   check("engine: tasks wait until the module has started", () => same(worker.sent.map((task) => task.kind), ["start"]));
   worker.answer(worker.sent[0], {});
   await later();
@@ -217,7 +233,7 @@ async function test_engine() {
   check("engine: a browser that cannot unpack the module gives an error", () => /no such class/.test(failed.error));
 }
 
-for (const test of [test_links, test_orbit, test_controls, test_files, test_worker, test_engine])
+for (const test of [test_links, test_orbit, test_controls, test_files, test_words, test_worker, test_engine])
   await Promise.resolve().then(test).catch((error) => check(`${test.name} runs: ${error.message}`, () => false));
 console.log(failures === 0 ? "all as expected" : `${failures} failed`);
 process.exit(failures === 0 ? 0 : 1);

@@ -89,6 +89,12 @@ async function running() {
   return running();
 }
 
+// The page's worker, whose module has functions that the package has not, calls them by this and by Scene.drawn().
+export async function with_module(work) {
+  const core = await running();
+  return call(core, () => work(core));
+}
+
 // Calls the module. What it throws (a trap, or memory that cannot grow) ends it: its scenes are lost, and new ones get a new module.
 function call(core, work) {
   if (core.ended) throw new HalflitError("the module has ended, and its scenes with it", kLimit);
@@ -340,10 +346,15 @@ export class Scene {
     return this.#handle;
   }
 
-  async render(options) {
+  render(options) {
+    return this.drawn(options, (core, handle, words) => core._halflit_draw(handle, words));
+  }
+
+  // draw: a function of the module; its answer is an exit code.
+  async drawn(options, draw) {
     let picture = null;
     await this.#do({ ...this.#defaults, ...options_of(options) }, (words) => {
-      const code = this.#core._halflit_draw(this.#live(), words) || this.#core._halflit_report(this.#handle);
+      const code = draw(this.#core, this.#live(), words) || this.#core._halflit_report(this.#handle);
       if (code === 0) picture = new Picture(this.#core, this.#handle);
       return code;
     });

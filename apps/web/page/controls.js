@@ -21,6 +21,8 @@ function show_lights(state, on_change) {
   box.replaceChildren(...lights.map((light, i) => {
     const part = document.createElement("div");
     part.className = "light";
+    part.setAttribute("role", "group");
+    part.setAttribute("aria-label", `Light ${i + 1}`);
     const slider = (key, min, max, step) => {
       const label = document.createElement("label"), input = document.createElement("input"), output = document.createElement("output");
       Object.assign(input, { type: "range", min, max, step, value: light[key] });

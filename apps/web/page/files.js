@@ -1,4 +1,4 @@
-// Models and environments that a visitor drops or opens. They never leave the page.
+// Models and environments that a visitor drops or opens. They never leave the page. The worker reads them.
 const kModelName = /\.(glb|gltf|stl|ply|obj|off|3mf)$/i, kSkyName = /\.(hdr|pfm)$/i;
 
 function files_of_entry(entry, folder) {
@@ -20,10 +20,9 @@ async function dropped_files(transfer) {
   return (await Promise.all(entries.map((entry) => files_of_entry(entry, "")))).flat();
 }
 
-// {files: [{name, bytes}], model, sky}: what of them to draw. Control characters in names would not pass through a link or a command line.
-async function read_files(list) {
-  const plain = (name) => name.replace(/[\x00-\x1f\x7f]/g, "_");
-  const files = await Promise.all(list.map(async ({ name, file }) => ({ name: plain(name), bytes: await file.arrayBuffer() })));
+// {files: [{name, file}], model, sky}: what of them to draw. Control characters in names would not pass through a link or a command line.
+function chosen_of(list) {
+  const files = list.map(({ name, file }) => ({ name: name.replace(/[\x00-\x1f\x7f]/g, "_"), file }));
   const named = (pattern) => files.map((file) => file.name).filter((name) => pattern.test(name)).sort((a, b) => a.split("/").length - b.split("/").length)[0];
   return { files, model: named(kModelName), sky: named(kSkyName) };
 }

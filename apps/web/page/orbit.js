@@ -65,9 +65,9 @@ function attach_orbit(element, change) {
   }, { passive: false });
   element.addEventListener("keydown", (event) => {
     const step = Math.PI / 24;
+    const arrow = (x, y) => (view) => (event.shiftKey ? moved(view, x / 24, -y / 24) : turned(view, x * step, y * step));
     const keys = {
-      ArrowLeft: (view) => turned(view, -step, 0), ArrowRight: (view) => turned(view, step, 0),
-      ArrowUp: (view) => turned(view, 0, step), ArrowDown: (view) => turned(view, 0, -step),
+      ArrowLeft: arrow(-1, 0), ArrowRight: arrow(1, 0), ArrowUp: arrow(0, 1), ArrowDown: arrow(0, -1),
       "+": (view, radius) => nearer(view, 1.1, radius), "-": (view, radius) => nearer(view, 1 / 1.1, radius),
     };
     if (!(event.key in keys)) return;

@@ -7,6 +7,9 @@ let engine = null, comparer = null;
 let heat = false, heat_of = "";
 let waiting = false, drawing = false, settle_timer = 0, link_timer = 0, turning = false;
 let frame_ms = [];       // of the last pictures while the view turns
+let busy_timer = 0, marked = false;
+let calm = false;        // the state differs from the last one by its view or samples alone
+const kBusyAfter = 150, kBusyAfterMotion = 1000;  // ms from which a picture in the making shows
 
 function fail_with(message) {
   $("error").textContent = message;
@@ -14,9 +17,40 @@ function fail_with(message) {
   $("loading").hidden = true;
 }
 
+// Marks the picture as an older one when the next one takes long, so that quick ones do not flicker. Its hash goes.
+function begin_busy(words, after = kBusyAfter) {
+  clearTimeout(busy_timer);
+  busy_timer = setTimeout(() => {
+    marked = true;
+    $("stage").setAttribute("aria-busy", "true");
+    $("stage").classList.add("old");
+    $("facts").textContent = $("notes").textContent = "";
+    show_task(words);
+  }, marked ? 0 : after);
+}
+
+function end_busy() {
+  clearTimeout(busy_timer);
+  marked = false;
+  $("stage").setAttribute("aria-busy", "false");
+  $("stage").classList.remove("old");
+  show_task(comparer ? "comparing with the reference" : "");
+}
+
+// The words on the picture; none while it says that the library loads.
+function show_task(words) {
+  $("busy").hidden = !words || !$("loading").hidden;
+  $("busy").textContent = words;
+}
+
 // An engine that has the files.
 function new_engine() {
   const made = new Engine($("module").value);
+  made.started.then(({ isa }) => {
+    if (isa !== "scalar" || $("module").value === "scalar") return;
+    $("module").value = "scalar";  // the browser has no SIMD
+    $("module").disabled = true;
+  });
   if (files.length) made.ask("files", { files });
   return made;
 }
@@ -42,28 +76,33 @@ async function draw_picture() {
   if (answer.stopped) return;
   if (answer.error) {
     const missing = !/^(demo|sphere:|lights:)/.test(scene) && !files.some((file) => file.name === scene);
-    fail_with(missing ? `${scene}: drop this file to see what the link shows` : answer.error);
-    return;
+    throw new Error(missing ? `${scene}: drop this file to see what the link shows` : answer.error);
   }
   fail_with("");
   const canvas = $("picture");
   if (canvas.width !== answer.width || canvas.height !== answer.height) Object.assign(canvas, { width: answer.width, height: answer.height });
   canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(answer.pixels), answer.width, answer.height), 0, 0);
-  answer.ms = performance.now() - start;
-  shown = { ...answer, scene };
-  say_facts();
+  frame_ms = turning ? [...frame_ms.slice(-9), performance.now() - start] : [];
+  shown = { ...answer, scene, flags };
+  if (!marked) say_facts();
   show_lobes();
 }
 
+// Where the state has no picture, the last one stays, and says so.
+function keep_old_picture() {
+  $("stage").classList.toggle("old", shown !== null);
+  $("facts").textContent = shown ? `the picture is still that of ${shown.scene}` : "";
+  $("notes").textContent = "";
+}
+
 function say_facts() {
-  const { report, ms } = shown;
-  frame_ms = turning ? [...frame_ms.slice(-9), ms] : [];
-  const mean = frame_ms.reduce((a, b) => a + b, 0) / (frame_ms.length || 1);
-  const parts = [`${report.render_ms.toFixed(0)} ms`, `${report.isa}, one thread`, `${report.triangles.toLocaleString("en")} triangles`, `${report.lights} lights`];
-  if (report.bands) parts.push(`${report.bands} bands`);
-  if (turning) parts.push(`${(1000 / mean).toFixed(0)} pictures a second, 1 sample`);
-  else parts.push(`hash ${report.hash}`);
-  if (state.budget > 0 && !turning) parts.push(`error proven below ${digits(report.bound, 3)} codes`);
+  const { report } = shown, mean = frame_ms.reduce((a, b) => a + b, 0) / (frame_ms.length || 1);
+  const parts = [`${report.render_ms.toFixed(0)} ms`, `${report.isa}, one thread`, counted(report.triangles, "triangle"), counted(report.lights, "light")];
+  if (report.bands) parts.push(counted(report.bands, "band"));
+  if (turning) parts.push(`${counted((1000 / mean).toFixed(0), "picture")} a second, 1 sample`);
+  else parts.push(`hash ${report.pixel_hash}`);
+  if (state.budget > 0 && !turning) parts.push(`error proven below ${counted(digits(report.bound, 3), "code")}`);
+  $("facts").setAttribute("aria-live", turning ? "off" : "polite");
   $("facts").textContent = parts.join(" · ");
   $("notes").textContent = [...report.choices, ...report.warnings].join(" · ");
   const end = Math.max(0, ...report.animations.map((a) => a.end));
@@ -74,6 +113,7 @@ function say_facts() {
 }
 
 async function show_lobes() {
+  if (!$("plots").open) return;
   const bands = state.sh_order || shown.report.bands || 3, lobe = lobe_of(state);
   const wanted = lobe ? [lobe] : shown.report.lobes.slice(0, 8), asked = picture_engine();
   const answers = await Promise.all(wanted.map((task) => asked.ask("lobe", { ...task, bands })));
@@ -82,13 +122,13 @@ async function show_lobes() {
   draw_curves($("curve"), curves, bands, curves.length === 1);
   const last = curves[curves.length - 1];
   draw_bands($("bands"), last.bands, bands);
-  $("series_name").textContent = curves.length === 1 ? `${bands} bands, off by ${last.sup === null ? "over 1" : digits(last.sup, 2)}` : "series (choose a model)";
+  $("series_name").textContent = curves.length === 1 ? `${counted(bands, "band")}, off by ${last.sup === null ? "over 1" : digits(last.sup, 2)}` : "series (choose a model)";
 }
 
 function stop_comparing() {
   comparer?.stop();
   comparer = null;
-  $("busy").hidden = true;
+  if (!marked) show_task("");
 }
 
 async function compare_picture() {
@@ -96,9 +136,10 @@ async function compare_picture() {
   if (!heat || heat_of === key) return;
   heat_of = key;
   stop_comparing();  // one that is no longer wanted
-  $("busy").hidden = false;
   try {
-    const own = (comparer = new_engine()), answer = await own.ask("compare", task);
+    const own = (comparer = new_engine());
+    show_task("comparing with the reference");
+    const answer = await own.ask("compare", task);
     if (own !== comparer) return;
     stop_comparing();
     if (answer.error) fail_with(answer.error);
@@ -114,7 +155,7 @@ function show_heat(answer) {
   Object.assign(canvas, { width: answer.width, height: answer.height });
   canvas.getContext("2d").putImageData(heat_picture(new Uint8Array(answer.pixels), answer.width, answer.height), 0, 0);
   canvas.hidden = $("legend").hidden = false;
-  $("ramp_most").textContent = `0 to ${digits(max, 2)} codes, mean ${digits(mean, 2)}`;
+  $("ramp_most").textContent = `0 to ${counted(digits(max, 2), "code")}, mean ${digits(mean, 2)}`;
   $("notes").textContent = `Error against float64, before rounding to whole codes: at most ${digits(max, 3)}, mean ${digits(mean, 3)}, ` +
     `99.9 % of the pixels below ${digits(p999, 3)}. The reference took ${(answer.report.reference_ms / 1000).toFixed(1)} s.`;
 }
@@ -130,11 +171,18 @@ async function draw_all() {
   waiting = true;
   if (drawing) return;
   drawing = true;
+  let fault = "";
   while (waiting) {
     waiting = false;
-    await draw_picture().catch((error) => fail_with(`the page cannot draw: ${error.message}`));
+    begin_busy(shown?.scene === state.scene ? "drawing" : `loading ${state.scene}`, calm ? kBusyAfterMotion : kBusyAfter);
+    fault = await draw_picture().then(() => "", (error) => error.message);
   }
   drawing = false;
+  end_busy();
+  if (fault) {
+    fail_with(fault);
+    keep_old_picture();
+  } else if (shown) say_facts();
   if (!turning) compare_picture();
 }
 
@@ -150,6 +198,7 @@ function write_link() {
 
 // moves: the view alone changes, by a drag or a key.
 function set_state(next, moves = false) {
+  calm = moves || turning;
   state = next;
   turning = moves;
   clearTimeout(settle_timer);
@@ -172,9 +221,11 @@ function change_light(i, key, value) {
 
 // list: [{name, file}], or a promise of it.
 async function take_files(list) {
-  const read = await Promise.resolve(list).then(read_files).catch((error) => ({ error }));
+  begin_busy("looking at the files");
+  const read = await Promise.resolve(list).then(chosen_of).catch((error) => ({ error }));
+  if (!drawing) end_busy();
   if (read.error || (!read.model && !read.sky)) {
-    fail_with(read.error ? `the browser cannot read the files: ${read.error.message}` : "expected .glb, .gltf, .stl, .ply or .obj, or .hdr or .pfm as an environment");
+    fail_with(read.error ? `the browser cannot read the files: ${read.error.message}` : "expected .glb, .gltf, .stl, .ply, .obj, .off or .3mf, or .hdr or .pfm as an environment");
     return;
   }
   files = read.model ? read.files : with_files(files, read.files);
@@ -215,10 +266,12 @@ $("toggle_heat").addEventListener("click", () => {
   hide_heat();
   if (heat) compare_picture();
 });
+const png_of_shown = () => picture_engine().ask("png", { scene: shown.scene, flags: shown.flags });
 $("download").addEventListener("click", async () => {
   if (!shown) return;
-  const { scene } = shown, link = document.createElement("a");
-  link.href = URL.createObjectURL(await png_of(new Uint8Array(shown.pixels), shown.width, shown.height));
+  const { scene } = shown, answer = await png_of_shown(), link = document.createElement("a");
+  if (!answer.file) return fail_with(answer.error ?? "");
+  link.href = URL.createObjectURL(new Blob([answer.file], { type: "image/png" }));
   link.download = `${stem_of(scene)}.png`;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
@@ -246,6 +299,7 @@ addEventListener("drop", (event) => {
   $("drop").hidden = true;
   take_files(dropped_files(event.dataTransfer));
 });
+$("plots").addEventListener("toggle", () => shown && show_lobes());
 addEventListener("resize", () => {
   fit_command();
   if (shown) show_lobes();
@@ -256,13 +310,9 @@ for (let x = 0; x < 128; ++x) {
   ramp.fillStyle = `rgb(${heat_color(x / 127)})`;
   ramp.fillRect(x, 0, 1, 1);
 }
-if (!has_simd()) {
-  $("module").value = "scalar";
-  $("module").disabled = true;
-}
 const sides = state.size.split("x");
 Object.assign($("picture"), { width: sides[0], height: sides[1] || sides[0] });
 set_state(state);
 
 // For tests: pictures without the page's own state.
-window.halflit = { Engine, take_files, current: () => ({ state, shown, idle: !drawing && !waiting && !turning && !link_timer && $("busy").hidden }) };
+window.halflit = { Engine, take_files, current: () => ({ state, shown, idle: !drawing && !waiting && !turning && !link_timer && !comparer }) };

@@ -32,6 +32,7 @@ function context_of(canvas) {
 function draw_curves(canvas, curves, bands, with_series) {
   const { context, width, height } = context_of(canvas), style = getComputedStyle(document.documentElement);
   const ink = style.getPropertyValue("--ink"), faint = style.getPropertyValue("--line"), accent = style.getPropertyValue("--accent");
+  const quiet = style.getPropertyValue("--quiet");
   const left = 26, right = width - 6, top = 8, bottom = height - 18;
   const values = curves.flatMap((c) => c.f).concat(with_series ? curves[curves.length - 1].series : []);
   const most = Math.max(1, ...values) * 1.04, least = Math.min(0, ...values);
@@ -70,7 +71,7 @@ function draw_curves(canvas, curves, bands, with_series) {
     context.setLineDash([]);
   };
   const cosine = Array.from({ length: 181 }, (_, i) => Math.max(0, (2 * i) / 180 - 1));
-  line(cosine, faint, 2, []);
+  line(cosine, quiet, 2, []);
   for (const curve of curves) line(curve.f, accent, 2, []);
   if (with_series) line(curves[curves.length - 1].series, ink, 1.2, [4, 3]);
 }

@@ -23,6 +23,9 @@ function lobe_of(state) {
 // Six digits: the picture is drawn from the same text that the command line shows.
 const digits = (x, count = 6) => (Math.abs(x) < 1e-12 ? "0" : String(Number(Number(x).toPrecision(count))));
 
+// "1 light", "2 lights".
+const counted = (count, word) => `${typeof count === "number" ? count.toLocaleString("en") : count} ${word}${Number(count) === 1 ? "" : "s"}`;
+
 // "azimuth,elevation,intensity,colour;.." of lights that were added.
 function lights_of(state) {
   return state.lights ? state.lights.split(";").map((text) => {

@@ -1,5 +1,4 @@
-// Starts the module, and puts the kernels of wasm128, a module of their own, into its memory and its table of functions. The page's worker
-// and the npm package share this file.
+// Starts the module, and puts the kernels of wasm128, a module of their own, into its memory and its table of functions.
 const kKernelStack = 1 << 16;  // bytes: twenty times the largest frame of a kernel
 
 // What the kernels need, by the linker's section dylink.0: a type, a length, and as LEB128 the bytes, log2 of their alignment, functions.
@@ -32,7 +31,7 @@ async function add_kernels(core, exports, module) {
 }
 
 // make: Emscripten's function. module, kernels: compiled; without kernels the scalar ones draw.
-async function start_module(make, module, kernels) {
+export async function start_module(make, module, kernels) {
   let exports = null;
   const core = await new Promise((resolve, reject) => {
     const instantiateWasm = (imports, done) => {
