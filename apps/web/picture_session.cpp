@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace halflit::web {
 namespace {
@@ -79,6 +80,7 @@ Keys keys_of(const std::string& scene, const std::vector<std::string>& flags) {
 void PictureSession::forget_scene() { job_.reset(); }
 
 Result<void> PictureSession::apply(const std::string& scene, const std::vector<std::string>& flags) {
+    const cli::Stopwatch watch;
     auto options = cli::parse_render_flags(flags);
     if (!options) return tl::unexpected(options.error());
     if (options->film.views.size() > 1) return fail(ErrorCode::usage, "--view: one side for each picture");
@@ -105,6 +107,7 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
     }
     light_flags_ = std::move(keys.light);
     job_->execution.time_limit_s = options->timeout_s;  // of this picture, beside what the loading took
+    apply_ms_ += watch.ms();
     return {};
 }
 
@@ -117,19 +120,18 @@ Result<Image> PictureSession::render(const Settings& settings, bool linear) {
 }
 
 Result<void> PictureSession::draw(const std::string& scene, const std::vector<std::string>& flags) {
-    const cli::Stopwatch watch;
     if (const auto applied = apply(scene, flags); !applied) return applied;
-    apply_ms_ = watch.ms();
     auto image = render(job_->settings, false);
     if (!image) return tl::unexpected(image.error());
     picture_ = std::move(*image);
+    picture_apply_ms_ = std::exchange(apply_ms_, 0.0);
     comparison_.clear();
     return {};
 }
 
 std::string PictureSession::report() const {
     if (!comparison_.empty()) return comparison_;
-    return job_ ? picture_report(*job_, last_, picture_, apply_ms_) : "{}";
+    return job_ ? picture_report(*job_, last_, picture_, picture_apply_ms_) : "{}";
 }
 
 Result<void> PictureSession::compare(const std::string& scene, const std::vector<std::string>& flags) {

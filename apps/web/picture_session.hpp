@@ -42,8 +42,9 @@ private:
     Renderer renderer_;
     RenderReport last_;
     Image picture_;
-    double apply_ms_ = 0;
-    std::string comparison_;  ///< its report; empty: the last picture is none
+    double apply_ms_ = 0;          ///< of apply() since the last picture
+    double picture_apply_ms_ = 0;  ///< up to the last picture
+    std::string comparison_;       ///< its report; empty: the last picture is none
 };
 
 }  // namespace halflit::web
