@@ -122,14 +122,17 @@ struct PictureBox {
     double low_x = 1e300, low_y = 1e300, high_x = -1e300, high_y = -1e300;
 
     PictureBox(const Bounds& box, const Mat4& clip_from_object) {
+        bool any_ahead = false;
         for (int corner = 0; corner < 8; ++corner) {
             const auto at = [corner](int axis, float low, float high) { return double{(corner >> axis & 1) != 0 ? high : low}; };
             const ClipPlace place =
                 clip_place(clip_from_object, {at(0, box.min.x, box.max.x), at(1, box.min.y, box.max.y), at(2, box.min.z, box.max.z)});
             const bool ahead = place.w > 0.0;  // a box that reaches behind the camera may fill all
+            any_ahead |= ahead;
             low_x = std::min(low_x, ahead ? place.x / place.w : -1.0), high_x = std::max(high_x, ahead ? place.x / place.w : 1.0);
             low_y = std::min(low_y, ahead ? place.y / place.w : -1.0), high_y = std::max(high_y, ahead ? place.y / place.w : 1.0);
         }
+        if (!any_ahead) high_x = low_x;
         low_x = std::max(low_x, -1.0), low_y = std::max(low_y, -1.0), high_x = std::min(high_x, 1.0), high_y = std::min(high_y, 1.0);
     }
     [[nodiscard]] bool empty() const { return !(low_x < high_x && low_y < high_y); }

@@ -68,9 +68,10 @@ void Renderer::Impl::make_surface(const PreparedData& scene, const RasterKernels
     surface.make(geometry, surface_materials, kernels, executor);
 }
 
-TileCounts Renderer::Impl::draw_behind(const PicturePass& pass, const Execution& execution) {
+TileCounts Renderer::Impl::draw_behind(const PicturePass& pass, const Settings& settings, const Execution& execution) {
     const Target target = behind.target(plan.picture, executor.stop());
-    PicturePass all = {pass.view, plan, Output(target, plan.picture.region), pass.reference, nullptr, plan.picture.region, pass.layers};
+    LayerBudget layers(settings, plan.picture.region.width, plan.picture.region.height);  // of its own: it is a picture, too
+    PicturePass all = {pass.view, plan, Output(target, plan.picture.region), pass.reference, nullptr, plan.picture.region, layers};
     all.view.behind = true;
     Execution watched;
     if (execution.progress) watched.progress = [&](double done) { execution.progress(0.5 * done); };
@@ -135,7 +136,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     report.ms.transform += watch.lap();
 
     const TilePass surface_pass{geometry, surface, surface_materials, raster, shade, executor.stop()};
-    LayerBudget layers(settings.max_layers, target.width, target.height);
+    LayerBudget layers(settings, target.width, target.height);
     const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, executor.stop(), plan.shading.shadow_offset},
                            plan,
                            output,
@@ -145,7 +146,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
                            layers,
                            only};
     TileCounts behind_counts;
-    if (shades && plan.looks_through) behind_counts = draw_behind(pass, execution);
+    if (shades && plan.looks_through) behind_counts = draw_behind(pass, settings, execution);
     const bool has_lines = shades && settings.edges != EdgeChoice::none && only == nullptr;
     Execution watched = execution;
     if (has_lines) watched.on_tile = {};  // told after the lines

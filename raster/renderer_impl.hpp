@@ -49,7 +49,7 @@ struct Renderer::Impl {
     /// of_materials: base colours and normal maps are read too, whatever light there is.
     void make_surface(const raster::PreparedData& scene, const raster::RasterKernels& kernels, bool of_materials);
     /// Draws what is seen through glass that blurs or bends light, the first half of the progress.
-    raster::TileCounts draw_behind(const raster::PicturePass& pass, const Execution& execution);
+    raster::TileCounts draw_behind(const raster::PicturePass& pass, const Settings& settings, const Execution& execution);
     /// Paints Settings::edges over the finished picture.
     Result<void> draw_edges(const raster::PreparedData& scene, const Camera& camera, const Settings& settings, const raster::Output& output,
                             int width, int height, const Execution& execution, Isa isa);

@@ -29,7 +29,7 @@ private:
     int process_ = 0;
 };
 
-/// While one lives in a thread that halflit_stop_at_interrupt() told so, SIGINT cancels the thread's work (sh/time_limit.hpp).
+/// While it lives, SIGINT cancels the thread's work (sh/time_limit.hpp), if halflit_stop_at_interrupt(1) was called.
 class InterruptibleCall {
 public:
     InterruptibleCall();

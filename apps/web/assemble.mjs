@@ -20,7 +20,7 @@ const { version, pixel_epoch } = JSON.parse(library);
 const tables = `const version = ${JSON.stringify(version)}, pixelEpoch = ${pixel_epoch}, flags = [];`;
 const parts = {
   "library.json": library,
-  "worker.js": packed([`const halflit_module = ${code};`, tables, ...kOfPackage.map((file) => part_of_script(text(file))), text(`${page}/worker.js`)].join("\n")),
+  "worker.js": packed([`"use strict";`, `const halflit_module = ${code};`, tables, ...kOfPackage.map((file) => part_of_script(text(file))), text(`${page}/worker.js`)].join("\n")),
   "licences.txt": all_licences(libraries).trim(),
   "main.wasm": code_of("halflit_page"),
   "kernels.wasm": code_of("halflit_wasm128"),

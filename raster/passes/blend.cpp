@@ -71,7 +71,7 @@ void PictureTile::blend_layers() {
 
 void PictureTile::blend_layers(const TileRect& part) {
     if (collect_layers(part)) {
-        pass_.layers.take(scratch_.layers->fragments.size());
+        pass_.layers.take(scratch_.layers->fragments.size() * static_cast<std::size_t>(samples_));
         shade_layers();
         blend_pixels(part);
         return;
@@ -296,7 +296,7 @@ void PictureTile::blend_sample(int at, int sample) {
         });
         std::sort(kept.begin(), kept.end());
         layers.fragments.clear();
-        pass_.layers.take(sample == 0 ? kept.size() : 0);
+        pass_.layers.take(kept.size());
         for (const Kept& layer : kept) layers.fragments.push_back({layer.id, static_cast<std::uint16_t>(at), 0});
         shade_layers();
         for (std::size_t i = 0; i < layers.light.size(); ++i) blend_fragment(i, at, sample);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,15 @@ bool covers_any(const TileScratch& scratch, const CoverBox& box) {
     return false;
 }
 
+/// Takes the next smaller number for each depth: a masked triangle that comes first wins against an opaque one of the same depth.
+void move_back(const TileRect& rect, int samples, TileBuffers& buffers) {
+    for (int s = 0; s < samples; ++s)
+        for (int y = 0; y < rect.height; ++y)
+            for (int x = 0; x < rect.width; ++x)
+                if (float& depth = buffers.depth[s][y * kTileStride + x]; depth > 0.0f)
+                    depth = std::bit_cast<float>(std::bit_cast<std::uint32_t>(depth) - 1);
+}
+
 void mark_shown(const ViewGeometry& geometry, const RasterKernels& kernels, StopSignal& stop, int tile, TileScratch& scratch,
                 ShownRecords& shown) {
     draw_opaque(geometry, kernels, stop, tile, scratch);
@@ -47,6 +57,7 @@ void mark_shown(const ViewGeometry& geometry, const RasterKernels& kernels, Stop
                 mark(shown[chunk][id - geometry.source(chunk).id_base]);
             }
     if (!geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend)) return;
+    move_back(rect, samples.count, scratch.buffers);
     for (std::size_t c = 0; c < geometry.chunks().size(); ++c) {
         const TriangleSource& source = geometry.source(c);
         stop.check();

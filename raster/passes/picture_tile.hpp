@@ -16,10 +16,11 @@ namespace halflit::raster {
 /// The transparent surfaces that the pixels of a picture may have together (Settings::max_layers).
 class LayerBudget {
 public:
-    LayerBudget(int layers, int width, int height) : layers_(layers), left_(std::int64_t{layers} * width * height) {}
-    /// Counts fragments. Throws Stopped if the picture has too many: whatever their order, as all are counted.
-    void take(std::size_t fragments) {
-        const auto n = static_cast<std::int64_t>(fragments);
+    LayerBudget(const Settings& settings, int width, int height)
+        : layers_(settings.max_layers), left_(std::int64_t{layers_} * width * height * settings.samples) {}
+    /// Counts samples of them. Throws Stopped if the picture has too many, in whatever order they come.
+    void take(std::size_t samples) {
+        const auto n = static_cast<std::int64_t>(samples);
         if (layers_ == 0 || left_.fetch_sub(n, std::memory_order_relaxed) >= n) return;
         throw Stopped{{ErrorCode::limit, "the picture has more than " + std::to_string(layers_) +
                                              " transparent surfaces on each of its pixels, in the mean, which is the limit"}};

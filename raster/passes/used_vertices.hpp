@@ -11,7 +11,7 @@ namespace halflit::raster {
 /// screen: the batch's vertices. Lines and points keep whole quads.
 void copy_used_vertices(Chunk& chunk, std::span<const Draw> draws, const ScreenVertex* screen);
 
-/// Drops from chunk.used what its records and clip vertices do not use any more.
+/// Drops the vertices of chunk.used that no record and no clip vertex uses.
 void drop_unused_vertices(Chunk& chunk, std::span<const Draw> draws);
 
 }  // namespace halflit::raster

@@ -8,7 +8,7 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::int64_t kMostVertices = kClipVertex;
-/// Bytes of all triangles in the lists of a view, some seven millions of them, and their share of the memory that a call may take. Beyond
+/// Bytes of all triangles in the lists of a view, about 7 million of them, and their share of the memory that a call may take. Beyond
 /// it those that are hidden are dropped.
 constexpr std::size_t kTriangleBudget = std::size_t{256} << 20, kShareOfMemory = 4;
 

@@ -6,7 +6,7 @@
 //
 // Views of many vertices are transformed and binned in batches, from draw to draw, and keep only the vertices that their triangles use
 // (used_vertices.hpp): an instance takes some bytes of a file and could take megabytes of memory. Whenever the triangles of the batches
-// take more than a budget, those that no sample shows are dropped (hidden_triangles.cpp): the others are no more than there are samples.
+// take more than a budget, those that no sample shows are dropped (hidden_triangles.cpp): the opaque ones that stay are no more than there are samples.
 #pragma once
 
 #include "halflit/material.hpp"

@@ -68,7 +68,7 @@ void clear_tile(const TileRect& rect, int samples, bool depth_only, TileBuffers&
     }
 }
 
-/// Of a tile's samples; 0 if one of them shows nothing.
+/// The least depth of a tile's samples; 0 if one of them shows nothing.
 float farthest_depth(const TileRect& rect, int samples, const TileBuffers& buffers) {
     float least = 1.0f;
     for (int s = 0; s < samples; ++s)

@@ -247,10 +247,11 @@ template <class Fit>
 bool is_seen_already(const Fit& fit, const FramedVertices& used, double radius, const Mat4& world_from_object, Vec3d center) {
     if (used.bounds.empty) return true;
     if (radius >= 0.0) {
+        const double scale = largest_scale(world_from_object);
         const Vec3d middle = to_double(transform_point(world_from_object, used.bounds.center()));
         // Points are rounded to float32.
-        const double slack = 1e-6 * (length(middle) + length(to_double(used.bounds.center())) * largest_scale(world_from_object));
-        if (fit.has_ball(middle - center, (1.0 + 1e-6) * largest_scale(world_from_object) * radius + slack)) return true;
+        const double slack = 1e-6 * (length(middle) + scale * length(to_double(used.bounds.center())));
+        if (fit.has_ball(middle - center, (1.0 + 1e-6) * scale * radius + slack)) return true;
     }
     const Vec3f &low = used.bounds.min, &high = used.bounds.max;
     const PlacedBox box({low.x, low.y, low.z}, {high.x, high.y, high.z}, world_from_object);
@@ -308,7 +309,7 @@ public:
     }
 
 private:
-    /// Of meshes that several instances have.
+    /// Sets the radii of meshes that several instances have.
     void measure_balls() {
         std::vector<int> instances(scene_->meshes.size());
         for (const int i : part_.instances) ++instances[static_cast<std::size_t>(scene_->instances[static_cast<std::size_t>(i)].mesh)];

@@ -186,3 +186,44 @@ TEST_CASE("limits: copies of an opaque triangle are drawn once, and those that b
     (void)draw(scene_of(1, AlphaMode::opaque, false, 0.1f), many);
     CHECK(one == many);
 }
+
+TEST_CASE("limits: a picture of more transparent surfaces than its pixels may have is refused, whatever threads and tiles", "[raster][blend]") {
+    // Panes over the whole picture, and one over its left half.
+    constexpr int kPanes = 9, kSide = 96;
+    Scene scene;
+    Material pane;
+    pane.alpha_mode = AlphaMode::blend;
+    pane.base_color = {1, 0.5f, 0.25f, 0.1f};
+    scene.materials = {pane};
+    Mesh mesh;
+    mesh.material = 0;
+    const auto add = [&](float right, float z) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const Vec3f p : {Vec3f{-1, -1, z}, {right, -1, z}, {right, 1, z}, {-1, 1, z}}) mesh.positions.push_back(p);
+        for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
+    };
+    for (int i = 0; i < kPanes; ++i) add(1, 0.05f * static_cast<float>(i));
+    add(0, 0.9f);
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back({0, {}});
+    Bytes expected;
+    for (const int threads : {1, 3})
+        for (const int tile : {64, 16})
+            for (const int limit : {kPanes, kPanes + 1, 0}) {
+                Settings settings;
+                settings.max_layers = limit;
+                Bytes pixels(std::size_t{4} * kSide * kSide);
+                Renderer renderer;
+                const auto report = renderer.render(scene, front(), settings, {.width = kSide, .height = kSide, .pixels = pixels.data()},
+                                                    {.threads = threads, .tile_size = tile});
+                INFO(threads << " threads, tiles of " << tile << ", at most " << limit);
+                REQUIRE(report.has_value() == (limit != kPanes));
+                if (!report) {
+                    CHECK(report.error().code == ErrorCode::limit);
+                    CHECK(report.error().message.find("transparent surfaces") != std::string::npos);
+                    continue;
+                }
+                if (expected.empty()) expected = pixels;
+                CHECK(pixels == expected);
+            }
+}

@@ -180,7 +180,7 @@ async function main(words) {
   try {
     await (line.command === "info" ? describe(line, model, environment) : draw(line, model, environment));
   } catch (error) {
-    const code = error.code ?? kFile, told = String(error.message).replace(/^environment \d+/, (name) => environment ?? name);
+    const code = Number.isInteger(error.code) ? error.code : kFile, told = String(error.message).replace(/^environment \d+/, (name) => environment ?? name);
     const of_value = code === kUsage && line.passed.some((flag) => told.startsWith(`${flag}: expected`)) && !told.includes("; see halflit");
     const message = of_value ? `${told}; see halflit ${line.command} --help` : told;
     const head = { schema: "halflit.report/1", status: "error", halflit: version, pixel_epoch: pixelEpoch };

@@ -95,6 +95,12 @@ export async function with_module(work) {
   return call(core, () => work(core));
 }
 
+// True if the module that runs has ended, or has no memory for other scenes.
+export async function has_ended() {
+  const core = started && await started;
+  return !core || core.ended || core.full;
+}
+
 // Calls the module. What it throws (a trap, or memory that cannot grow) ends it: its scenes are lost, and new ones get a new module.
 function call(core, work) {
   if (core.ended) throw new HalflitError("the module has ended, and its scenes with it", kLimit);
@@ -161,14 +167,15 @@ function did_you_mean(core, word) {
 // A message of the module with the options' names as the caller wrote them. Flags stay where the caller wrote flags.
 function in_callers_words(message, options) {
   const keys = Object.keys(options).filter((key) => options[key] !== undefined && options[key] !== null);
-  return message.replace(/(?<![\w-])--[a-z][a-z0-9-]*/g, (word) => {
+  const name_of = (word) => {
     const flag = flag_of.get(word);
     if (!flag) return word;
     const key = keys.find((name) => flag_of.get(name) === flag);
     if (key !== undefined) return key;
     if (flag.names.includes("--size") && keys.includes("width")) return "width and height";
     return keys.includes("flags") ? word : camel(flag.names.at(-1));
-  });
+  };
+  return message.replace(/(^|[^\w-])(--[a-z][a-z0-9-]*)/g, (_, before, word) => before + name_of(word));
 }
 
 // The words of the command line that means these options.

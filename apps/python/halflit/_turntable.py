@@ -111,16 +111,16 @@ def turntable(
 
     if not isinstance(format, str) or format not in _KINDS:
         raise UsageError(f"format: expected 'png', 'jpg' or 'webp', found {shown(format)}")
-    columns, first = whole(azimuths, "azimuths", 1, _MOST_FRAMES), finite(options.pop("azimuth", 35.0), "azimuth")
-    heights = sorted({finite(one, "elevations") for one in listed(elevations, "elevations", "a list of angles in degrees")})
-    if not heights or not -90 <= heights[0] <= heights[-1] <= 90:
+    columns, first = whole(azimuths, "azimuths", 1, _MOST_FRAMES), finite(options.pop("azimuth", 35.0), "azimuth") % 360
+    levels = sorted({finite(one, "elevations") for one in listed(elevations, "elevations", "a list of angles in degrees")})
+    if not levels or not -90 <= levels[0] <= levels[-1] <= 90:
         raise UsageError(f"elevations: expected angles from -90 to 90 degrees, found {shown(elevations)}")
-    if columns * len(heights) > _MOST_FRAMES:
-        raise UsageError(f"azimuths: expected at most {_MOST_FRAMES} views, found {columns * len(heights)}")
-    views: List[Any] = [(first + 360 * i / columns, height) for height in heights for i in range(columns)]
+    if columns * len(levels) > _MOST_FRAMES:
+        raise UsageError(f"azimuths: expected at most {_MOST_FRAMES} views, found {columns * len(levels)}")
+    views: List[Any] = [(first + 360 * i / columns, level) for level in levels for i in range(columns)]
     frames, found = {}, (0, 0)
     for view, picture in zip(views, view_frames(scene, views, size, light, options)):
         found = picture.shape[1], picture.shape[0]
         frames[view] = picture.encode(format)
-    row = min(range(len(heights)), key=lambda i: abs(heights[i] - 20))  # the one nearest to the usual elevation
+    row = min(range(len(levels)), key=lambda i: abs(levels[i] - 20))  # the one nearest to the usual elevation
     return Turntable(frames, found, columns, row, format)

@@ -1,6 +1,4 @@
 // Draws, in a thread of its own, by the npm package's engine, which assemble.mjs puts ahead of this. One message is answered at a time.
-"use strict";
-
 let queue = Promise.resolve();
 let files = new Map();  // by name, a File of the page or its bytes
 let opened = null;      // {name, scene}
@@ -57,8 +55,8 @@ onmessage = (event) => {
     let answer;
     try {
       answer = await tasks[task.kind](task);
-    } catch (error) {  // where memory ended, or something else than the library failed, another worker goes on
-      answer = { error: String(error.message || error), ended: !(error instanceof HalflitError) || error.code === kLimit };
+    } catch (error) {  // where the module or something else than the library failed, another worker goes on
+      answer = { error: String(error.message || error), ended: !(error instanceof HalflitError) || await has_ended() };
     }
     postMessage({ ...answer, id: task.id });
   });

@@ -48,7 +48,7 @@ struct Instance {
     int material = -1;         ///< index into Scene::materials, in place of the mesh's; -1: the mesh's
     Vec4f color{1, 1, 1, 1};   ///< linear, times the material's base colour; alpha counts where the material masks or blends
     bool visible = true;       ///< false: it is not drawn, casts no shadow, and views do not look at it
-    bool backdrop = false;     ///< a view of the whole scene does not contain it, if there is something else
+    bool backdrop = false;     ///< a view of the whole scene leaves it out, if there is something else; not in C and Python
 };
 
 /// Smallest axis-aligned box around a set of points, in the points' space.

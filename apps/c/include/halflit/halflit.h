@@ -50,8 +50,8 @@ enum {
 /// Message of the calling thread's last call that failed: one line, without a full stop. Empty if none failed. Valid until the thread's
 /// next call that fails.
 HALFLIT_C_API const char* halflit_last_error(void);
-/// Whether SIGINT, as Ctrl-C sends it, ends this thread's later calls with HALFLIT_ERROR_CANCELLED, after the process's own handler has run
-/// (0). For calls that take long: those that load, take meshes or choose a picture end within 0.3 s. A scene that was being changed is as
+/// stops: 1: SIGINT, as Ctrl-C sends it, ends this thread's later calls with HALFLIT_ERROR_CANCELLED, after the process's own handler has
+/// run; 0: it does not (default). For calls that take long: those that load, take meshes or choose a picture end within 0.3 s. A scene that was being changed is as
 /// after a lack of memory: sound, but without all or a part of the change. See halflit_execution.stop_at_interrupt for frames.
 HALFLIT_C_API void halflit_stop_at_interrupt(int32_t stops);
 
@@ -623,8 +623,8 @@ typedef struct halflit_settings {
     float edge_width;
     /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)
     float edge_color[3];
-    /// Transparent surfaces on each pixel, in the mean over all pixels of the picture, 1 to 2^20: a small file can have millions.
-    /// More end the call (ErrorCode::limit). 0: no limit. (128)
+    /// transparent surfaces on each pixel, in the mean over all pixels of the picture, 1 to 2^20; more end the call with a limit's
+    /// error: a small file can ask for millions. 0: no limit (128)
     int32_t max_layers;
     int32_t reserved[1];  ///< 0
 } halflit_settings;
