@@ -312,7 +312,10 @@ private:
     /// Sets the radii of meshes that several instances have.
     void measure_balls() {
         std::vector<int> instances(scene_->meshes.size());
-        for (const int i : part_.instances) ++instances[static_cast<std::size_t>(scene_->instances[static_cast<std::size_t>(i)].mesh)];
+        for (const int i : part_.instances) {
+            const Instance& instance = scene_->instances[static_cast<std::size_t>(i)];
+            ++instances[static_cast<std::size_t>(instance.mesh)];
+        }
         radii_.assign(scene_->meshes.size(), -1.0);
         TimeCheck check;
         for (std::size_t m = 0; m < radii_.size(); ++m) {
