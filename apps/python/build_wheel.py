@@ -1,24 +1,30 @@
 #!/usr/bin/env python3
 """Makes the wheel of the Python package, and is its PEP 517 backend. Needs patchelf and binutils, and no Python package.
 
-    build_wheel.py LIBHALFLIT_PYTHON_SO FOLDER      writes FOLDER/halflit-VERSION-py3-none-PLATFORM.whl and prints its name
+    build_wheel.py LIBHALFLIT_PYTHON_SO FOLDER [LICENCES]
+        writes FOLDER/halflit-VERSION-py3-none-PLATFORM.whl and prints its name. LICENCES: a folder with the licences of libraries that are
+        linked statically (./dev package --portable)
     python3 -m build --wheel --no-isolation --config-setting library=LIBHALFLIT_PYTHON_SO
+    python3 -m build --sdist --no-isolation
 
 Without `library` the backend builds the library in build/release, by cmake. One wheel serves every Python 3: the package calls the library
 through ctypes and knows nothing of Python's or numpy's binary interface.
 
 The wheel brings the libraries that halflit needs beside it, renamed by their content so that another package's copy of the same library
 does not take their place, and with their licences. glibc and the C++ library stay those of the system, as PEP 600 asks: two C++ libraries
-in one process do not go together.
+in one process do not go together, unless one is linked statically and shows no names.
 """
 import base64
+import gzip
 import hashlib
+import io
 import os
 import platform
 import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import zipfile
 
@@ -62,6 +68,8 @@ def output(*command):
 def needed(path):
     """Libraries that the file needs, directly or not, and that a system need not have: name -> path."""
     found = {}
+    if all(OF_SYSTEM.match(name) for name in re.findall(r"\(NEEDED\).*\[(.*)\]", output("readelf", "-d", path))):
+        return found  # of another processor, perhaps, whose libraries ldd does not know
     for name, where in re.findall(r"^\s*(\S+) => (.*?)(?: \(0x|$)", output("ldd", path), re.M):
         if OF_SYSTEM.match(name):
             continue
@@ -71,11 +79,18 @@ def needed(path):
     return found
 
 
+def machine(path):
+    """The file's processor, by the name that platforms have in names of wheels."""
+    kind = re.search(r"Machine: +(.*)", output("readelf", "-h", path)).group(1)
+    return {"Advanced Micro Devices X86-64": "x86_64", "AArch64": "aarch64"}.get(kind, platform.machine())
+
+
 def bundle(library, folder):
     """Puts the library and those that it needs into the folder, each with the folder as its search path. Returns their paths there."""
     own = os.path.join(folder, "libhalflit_python.so")
     shutil.copy(library, own)
-    output("strip", "--strip-unneeded", own)  # before patchelf, whose files strip damages
+    tool = f"{machine(own)}-linux-gnu-strip"
+    output(tool if shutil.which(tool) else "strip", "--strip-unneeded", own)  # before patchelf, whose files strip damages
     libraries = needed(library)
     renamed = {}
     for name, path in libraries.items():
@@ -104,8 +119,8 @@ def platform_tag(paths):
     glibcxx = max([0, *(int(minor) for minor in re.findall(r"Name: GLIBCXX_3\.4\.(\d+)", text))])
     for minor, newest in GLIBCXX_OF_GLIBC:
         if newest >= glibcxx:
-            return f"manylinux_2_{max(minor, glibc)}_{platform.machine()}"
-    return f"linux_{platform.machine()}"
+            return f"manylinux_2_{max(minor, glibc)}_{machine(paths[0])}"
+    return f"linux_{machine(paths[0])}"
 
 
 def licences(libraries):
@@ -128,7 +143,7 @@ def licences(libraries):
 # ---- the wheel ----------------------------------------------------------------------------------------------------------
 
 
-def make(library, folder):
+def make(library, folder, licences_folder=None):
     """Writes the wheel into the folder and returns its name."""
     files = {}
     for folder_of, folders, names in os.walk(os.path.join(HERE, "halflit")):
@@ -145,7 +160,11 @@ def make(library, folder):
             with open(path, "rb") as file:
                 files["halflit/lib/" + os.path.basename(path)] = file.read()
     info = f"halflit-{version()}.dist-info/"
-    for name, text in licences(libraries).items():
+    notices = licences(libraries)
+    for name in sorted(os.listdir(licences_folder)) if licences_folder else ():
+        with open(os.path.join(licences_folder, name), "rb") as file:
+            notices[name] = file.read()
+    for name, text in notices.items():
         files[f"{info}licenses/bundled/{name}"] = text
     with open(os.path.join(ROOT, "LICENSE"), "rb") as file:
         files[info + "licenses/LICENSE"] = file.read()
@@ -176,7 +195,8 @@ def write(archive, path, data):
 
 def built_library():
     folder = os.path.join(ROOT, "build", "release")
-    for command in (["cmake", "--preset", "release"], ["cmake", "--build", folder, "--target", "halflit_python"]):
+    flags = [] if os.path.exists(os.path.join(ROOT, "tests")) else ["-DHALFLIT_BUILD_TESTS=OFF"]  # a source distribution has none
+    for command in (["cmake", "--preset", "release", *flags], ["cmake", "--build", folder, "--target", "halflit_python"]):
         subprocess.run(command, cwd=ROOT, check=True)
     return os.path.join(folder, "python", "libhalflit_python.so")
 
@@ -191,10 +211,27 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    raise NotImplementedError("halflit's source is its repository; the Python package is made as a wheel alone")
+    """The repository's files without tests and benchmarks, with this backend named at the top. Needs git."""
+    stem = f"halflit-{version()}"
+    files = {"PKG-INFO": metadata().encode()}
+    for name in output("git", "-C", ROOT, "ls-files", "-z").split("\0"):
+        path = os.path.join(ROOT, name)
+        if name and not name.startswith(("tests/", "bench/", ".ci/")) and os.path.isfile(path):
+            with open(path, "rb") as file:
+                files[name] = file.read()
+    settings = files["apps/python/pyproject.toml"].decode()
+    files["pyproject.toml"] = settings.replace('backend-path = ["."]', 'backend-path = ["apps/python"]').encode()
+    with open(os.path.join(sdist_directory, stem + ".tar.gz"), "wb") as raw, gzip.GzipFile("", "wb", 9, raw, 0) as packed, \
+            tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive:  # fmt: skip
+        for name, data in sorted(files.items()):
+            entry = tarfile.TarInfo(f"{stem}/{name}")
+            entry.size = len(data)
+            entry.mode = 0o755 if data.startswith(b"#!") else 0o644
+            archive.addfile(entry, io.BytesIO(data))
+    return stem + ".tar.gz"
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
-    print(make(sys.argv[1], sys.argv[2]))
+    print(make(*sys.argv[1:]))
