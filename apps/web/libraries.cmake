@@ -71,23 +71,8 @@ endforeach()
 halflit_web_library(expat FOLDERS ${made}/expat ${expat}/expat/lib SOURCES ${sources})
 
 halflit_web_source(draco draco unused)
-file(CONFIGURE OUTPUT ${made}/draco/draco/draco_features.h @ONLY CONTENT
-"#define DRACO_MESH_COMPRESSION_SUPPORTED
-#define DRACO_NORMAL_ENCODING_SUPPORTED
-#define DRACO_STANDARD_EDGEBREAKER_SUPPORTED
-#define DRACO_PREDICTIVE_EDGEBREAKER_SUPPORTED
-#define DRACO_ATTRIBUTE_INDICES_DEDUPLICATION_SUPPORTED
-#define DRACO_ATTRIBUTE_VALUES_DEDUPLICATION_SUPPORTED
-#define DRACO_BACKWARDS_COMPATIBILITY_SUPPORTED
-")
-set(sources "")
-foreach(folder attributes core mesh point_cloud metadata compression)
-    file(GLOB_RECURSE found ${draco}/src/draco/${folder}/*.cc)
-    list(FILTER found EXCLUDE REGEX "/[^/]*(_test|test_|encod)[^/]*$|kd_tree")
-    list(FILTER found EXCLUDE REGEX "mesh_(features|utils|splitter|stripifier|are_|misc|cleanup|conn)")
-    list(FILTER found EXCLUDE REGEX "soup_mesh|point_cloud_builder|property_table|structural_meta|compression/decode.cc|draco_compression")
-    list(APPEND sources ${found})
-endforeach()
+include(${PROJECT_SOURCE_DIR}/cmake/draco.cmake)
+halflit_draco_decoder(${draco} ${made}/draco sources)
 halflit_web_library(draco FOLDERS ${made}/draco ${draco}/src SOURCES ${sources})
 
 halflit_web_source(meshoptimizer meshopt unused)

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Unpacks Debian's sources of the libraries that apps/web/libraries.cmake compiles: sources.sh FOLDER. Packages whose source is there stay
-# as they are. It asks the archives that this machine's apt knows, with a list of its own, so the system's settings do not change.
+# Unpacks Debian's sources of PACKAGES: sources.sh FOLDER [PACKAGES...]. Without PACKAGES: those that apps/web/libraries.cmake compiles.
+# Packages whose source is there stay as they are. It asks the archives that this machine's apt knows, with a list of its own, so the
+# system's settings do not change.
 set -euo pipefail
 
 folder=$1
-packages=(libjpeg-turbo libdeflate expat draco meshoptimizer libwebp)
+packages=("${@:2}")
+[ ${#packages[@]} -gt 0 ] || packages=(libjpeg-turbo libdeflate expat draco meshoptimizer libwebp)
 missing=()
 for package in "${packages[@]}"; do
     compgen -G "$folder/$package-[0-9]*/" >/dev/null || missing+=("$package")

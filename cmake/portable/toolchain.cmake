@@ -1,0 +1,52 @@
+# Toolchain for programs and libraries that run on old and new systems (./dev package --portable): this machine's compiler with the old C
+# library that sysroot.sh has made, and the compiler's own libraries linked statically. For arm64, Debian's cross compiler.
+#   HALFLIT_ARCH     Debian's name of the processor: amd64 or arm64
+#   HALFLIT_SYSROOT  folder with glibc, made by sysroot.sh
+#   HALFLIT_PREFIX   folder with the static libraries that libraries.sh has made; it may be empty yet
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES HALFLIT_ARCH HALFLIT_SYSROOT HALFLIT_PREFIX)
+if(HALFLIT_ARCH STREQUAL amd64)
+    set(triplet x86_64-linux-gnu)
+elseif(HALFLIT_ARCH STREQUAL arm64)
+    set(triplet aarch64-linux-gnu)
+else()
+    message(FATAL_ERROR "HALFLIT_ARCH: expected amd64 or arm64, found '${HALFLIT_ARCH}'")
+endif()
+execute_process(COMMAND dpkg --print-architecture OUTPUT_VARIABLE own_arch OUTPUT_STRIP_TRAILING_WHITESPACE)
+if(NOT HALFLIT_ARCH STREQUAL own_arch)
+    set(CMAKE_SYSTEM_NAME Linux)
+    string(REGEX REPLACE "-.*" "" CMAKE_SYSTEM_PROCESSOR ${triplet})
+    find_program(HALFLIT_QEMU NAMES qemu-${CMAKE_SYSTEM_PROCESSOR} qemu-${CMAKE_SYSTEM_PROCESSOR}-static)
+    if(HALFLIT_QEMU)
+        set(CMAKE_CROSSCOMPILING_EMULATOR ${HALFLIT_QEMU} -L ${HALFLIT_SYSROOT})
+    endif()
+endif()
+set(CMAKE_C_COMPILER ${triplet}-gcc)
+set(CMAKE_CXX_COMPILER ${triplet}-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE ${triplet})
+set(CMAKE_SYSROOT ${HALFLIT_SYSROOT})
+set(CMAKE_FIND_ROOT_PATH ${HALFLIT_PREFIX})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(ENV{PKG_CONFIG_LIBDIR} ${HALFLIT_PREFIX}/lib/pkgconfig)
+set(PKG_CONFIG_ARGN --static)
+include(${CMAKE_CURRENT_LIST_DIR}/../header_only.cmake)
+
+# Headers: the compiler's own and those of the sysroot. By itself a cross compiler takes the C library's headers of this machine.
+execute_process(COMMAND ${CMAKE_CXX_COMPILER} -E -v -x c++ /dev/null OUTPUT_QUIET ERROR_VARIABLE search)
+string(REGEX MATCHALL "\n /[^\n]*/c\\+\\+/[^\n]*" headers "${search}")
+list(FILTER headers EXCLUDE REGEX "cc1plus")
+list(TRANSFORM headers STRIP)
+execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=include OUTPUT_VARIABLE own OUTPUT_STRIP_TRAILING_WHITESPACE)
+set(c_headers ${own} ${HALFLIT_SYSROOT}/usr/include/${triplet} ${HALFLIT_SYSROOT}/usr/include)
+list(APPEND CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES ${headers} ${c_headers})
+set(CMAKE_C_STANDARD_INCLUDE_DIRECTORIES ${c_headers})
+
+# GTHREAD_USE_WEAK: in a static program, weak references to the functions of threads would stay empty.
+set(common "-nostdinc -fPIC -fvisibility=hidden -ffunction-sections -fdata-sections -ffp-contract=off")
+set(CMAKE_C_FLAGS_INIT "${common}")
+set(CMAKE_CXX_FLAGS_INIT "${common} -fvisibility-inlines-hidden -DGTHREAD_USE_WEAK=0")
+set(link "-B${HALFLIT_SYSROOT}/usr/lib/${triplet}/ -static-libstdc++ -static-libgcc -pthread -Wl,--gc-sections -Wl,--exclude-libs,ALL")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "${link} -static")
+set(CMAKE_MODULE_LINKER_FLAGS_INIT "${link}")
