@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
 import zipfile
@@ -95,6 +96,21 @@ class Wheel(unittest.TestCase):
         self.run_in(sys.executable, TOOL, LIBRARY, other)
         with open(self.path, "rb") as first, open(os.path.join(other, self.name), "rb") as second:
             self.assertTrue(first.read() == second.read())
+
+    @unittest.skipUnless(shutil.which("git") and os.path.exists(os.path.join(ROOT, ".git")), "no git")
+    def test_a_source_distribution_has_all_that_is_compiled_and_names_the_backend(self):
+        command = "import sys, build_wheel; print(build_wheel.build_sdist(sys.argv[1]))"
+        made = subprocess.run([sys.executable, "-c", command, self.folder.name], cwd=os.path.dirname(TOOL), stdout=subprocess.PIPE,
+                              check=True)  # fmt: skip
+        name = made.stdout.decode().strip()
+        with tarfile.open(os.path.join(self.folder.name, name)) as archive:
+            names = set(archive.getnames())
+            stem = name[: -len(".tar.gz")]
+            self.assertIn(b'backend-path = ["apps/python"]', archive.extractfile(stem + "/pyproject.toml").read())
+        of_git = ["git", "-C", ROOT, "ls-files", "sh", "shading", "raster", "apps", "cmake"]
+        listed = subprocess.run(of_git, stdout=subprocess.PIPE, check=True)
+        self.assertEqual({f"{stem}/{file}" for file in listed.stdout.decode().splitlines()} - names, set())
+        self.assertIn(stem + "/PKG-INFO", names)
 
     @unittest.skipUnless(importlib.util.find_spec("build") and importlib.util.find_spec("build.__main__"), "no build")
     def test_by_the_usual_frontend(self):
