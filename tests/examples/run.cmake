@@ -1,4 +1,4 @@
-# Runs an example and compares its picture with the one in the README. One code may differ: some examples use the C library's sine.
+# Runs an example and compares its picture with the one in docs/library.md. One code may differ: some examples use the C library's sine.
 #   cmake -DEXAMPLE=program -DARGUMENTS=list -DOUTPUT=folder -DACTUAL=file -DEXPECTED=picture -DHALFLIT=program -P run.cmake
 file(REMOVE_RECURSE ${OUTPUT})
 file(MAKE_DIRECTORY ${OUTPUT})

@@ -213,7 +213,7 @@ class Documentation(unittest.TestCase):
         self.assertEqual(found, [("user.py", i) for i, line in enumerate(TYPED.splitlines()) if "# " in line])
 
     def test_the_readmes_program_draws(self):
-        for path in (("README.md",), ("apps", "python", "README.md")):
+        for path in (("README.md",), ("docs", "library.md"), ("apps", "python", "README.md")):
             programs = re.findall(r"```python\n(.*?)```", text_of(*path), re.S)
             self.assertTrue(programs, path)
             for program in programs:

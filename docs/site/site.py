@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Makes the site of the documentation: build/site, by mkdocs.
+
+    site.py PROGRAM [REFERENCE]    REFERENCE: the folder of doxygen's HTML
+
+The sources of the site are a copy of README.md, of docs/*.md and of all files that they link to, under the same paths: so a link works in
+the repository and on the site. To these come pictures for each flag (flag_pictures.py), and the figures that the course names.
+"""
+import html
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import flag_pictures
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+SOURCE = ROOT / "build/docs/source"
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+FIGURE = re.compile(r"^<!-- figure: ([a-z-]+) -->$", re.M)
+
+
+def code_removed(text):
+    """The text without code, whose brackets are no links."""
+    return re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.S)
+
+
+def linked_files(path, text):
+    """Paths, relative to the root, of the files that a page links to."""
+    for target in LINK.findall(code_removed(text)):
+        if not re.match(r"[a-z]+:|#", target):
+            yield (path.parent / target.split("#")[0]).resolve()
+
+
+def kind_of(line):
+    if not line.strip():
+        return "empty"
+    for kind, start in (("code", "    "), ("more", " "), ("table", "|"), ("item", "- "), ("heading", "#")):
+        if line.startswith(start):
+            return kind
+    return "text"
+
+
+def for_mkdocs(text):
+    """GitHub begins a list, a table or code below a line of text; Python's Markdown needs an empty line between them."""
+    out, before, fenced = [], "empty", False
+    for line in text.split("\n"):
+        fenced ^= line.startswith("```")
+        kind = "text" if fenced else kind_of(line)
+        if kind == "table":  # code that holds a bar
+            line = re.sub(r"`([^`]*\\\|[^`]*)`", lambda m: "<code>" + html.escape(m[1]).replace("\\|", "&#124;") + "</code>", line)
+        if kind != "code" and not fenced:
+            line = line.replace("\\<", "&lt;")
+        if before == "text" and kind in ("item", "table", "code"):
+            out.append("")
+        out.append(line)
+        before = kind
+    return "\n".join(out)
+
+
+def gather():
+    """Copies the pages and what they link to."""
+    pages = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+    seen = set(pages)
+    for path in pages:  # grows while it is read
+        text = path.read_text(encoding="utf-8")
+        for target in linked_files(path, text):
+            if target in seen or not target.is_file():
+                continue
+            seen.add(target)
+            if target.suffix == ".md":
+                pages.append(target)
+            else:
+                copy = SOURCE / target.relative_to(ROOT)
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(target, copy)
+        copy = SOURCE / path.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_text(for_mkdocs(text), encoding="utf-8")
+    return len(pages)
+
+
+def draw_figures(program):
+    """Replaces the marks of figures in the pages by figures of the program."""
+    count = 0
+    for path in sorted((SOURCE / "docs").glob("*.md")):
+        text = path.read_text(encoding="utf-8")
+        names = FIGURE.findall(text)
+        if names:
+            subprocess.run([program, "figures", *names, "-o", SOURCE / "docs/figures", "--quiet"], check=True)
+            path.write_text(FIGURE.sub(r"![The figure \1 of `halflit figures`](figures/\1.svg)", text), encoding="utf-8")
+        count += len(names)
+    return count
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    program = str(pathlib.Path(sys.argv[1]).resolve())
+    shutil.rmtree(SOURCE, ignore_errors=True)
+    pages = gather()
+    figures = draw_figures(program)
+    pictures = flag_pictures.make(program, SOURCE / "docs")
+    if len(sys.argv) == 3:
+        shutil.copytree(sys.argv[2], SOURCE / "reference")
+        with open(SOURCE / "docs/reference.md", "a", encoding="utf-8") as file:
+            file.write("\n[All names, by doxygen](../reference/index.html)\n")
+    subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", HERE / "mkdocs.yml"], check=True)
+    print(f"{pages + 1} pages, {figures} figures, {pictures} pictures of flags", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
