@@ -8,7 +8,7 @@
 //     float2 seen = shadow_tap(behind, wrap_fade_distance(w, radius), x, w);        // no shadow: float2(1.0, 1.0)
 //     float3 direct = light_color * wrap_shadowed(wrap_lobe(x, w, n), x, seen);
 //     float3 sky = wrap_sky(sh, normal, wrap_bands(w, n));
-//     float3 color = albedo * wrap_scale(w, n) * (direct + sky);                    // without wrap_scale: not normalised
+//     float3 color = albedo * wrap_scale(w, n) * (direct + sky);                    // without wrap_scale: not normalized
 
 // The family that holds all others. w in [0, 1] is the wrap: light reaches surfaces with x > -w. n >= 0 is the power; below 1 the lobe has
 // an edge at its end. At x <= -w the lobe is 0 for every n. The clamp must be on the sum x + w: a clamp on x alone would never wrap.
@@ -36,7 +36,7 @@ float valve_lobe(float x) {
 // Sloan's generalised lobe: w = a, n = 1 + a. Lambert's at a = 0, Valve's at a = 1; it keeps the cosine's curvature at its peak, and for
 // a > 0 it ends without an edge.
 float sloan_lobe(float x, float a) { return wrap_lobe(x, a, 1.0 + a); }
-// McAuley's form: any wrap and power, normalised.
+// McAuley's form: any wrap and power, normalized.
 float mcauley_lobe(float x, float w, float n) { return wrap_scale(w, n) * wrap_lobe(x, w, n); }
 
 // Factors of the bands 0, 1 and 2 of the lobe, for wrap_sky. The 1/pi of irradiance is inside: Lambert has 1, 2/3, 1/4. The exact form for
@@ -79,7 +79,7 @@ float2 shadow_tap(float behind, float fade_distance, float x, float w) {
     return behind > 0.0 ? float2(0.0, left) : float2(1.0, 1.0);
 }
 
-// The lobe f at x under a shadow; `seen` as from shadow_tap. f must not be normalised yet. Highlights take seen.x alone.
+// The lobe f at x under a shadow; `seen` as from shadow_tap. f must not be normalized yet. Highlights take seen.x alone.
 float wrap_shadowed(float f, float x, float2 seen) {
     float core = min(f, max(x, 0.0));
     return seen.x * core + seen.y * (f - core);

@@ -71,7 +71,7 @@ Result<Figure> make_sh_error_figure() {
     Plot plot{.title = "Order-3 error of Sloan's lobe", .x = {.label = "a", .min = 0, .max = 1}, .y = {.label = "L^{2} error"}};
     plot.series = {over_wrap("absolute, |f − f_{3}|", l2),
                    over_wrap("relative, |f − f_{3}| / |f|", [&](double a) { return l2(a) / std::sqrt(energy(sloan(a))); }),
-                   over_wrap("of the normalised lobe f / f_{0}", [&](double a) { return l2(a) / sh::zonal_bands(sloan(a))[0]; })};
+                   over_wrap("of the normalized lobe f / f_{0}", [&](double a) { return l2(a) / sh::zonal_bands(sloan(a))[0]; })};
     plot.series[1].dash = "6 3";
     plot.series[2].dash = "2 3";
     plot.width = 620;

@@ -10,7 +10,7 @@ std::span<const FigureEntry> all_figures() {
         {"green-sloan", "Green's lobe and Sloan's at the same wrap", "[SNY11] fig. 4", &make_green_sloan_figure},
         {"sh-error", "Error of Sloan's lobe in order-3 spherical harmonics", "[SNY11] fig. 5", &make_sh_error_figure},
         {"band-energy", "Energy of Sloan's lobe in each band", "[SNY11] fig. 6", &make_band_energy_figure},
-        {"normalized", "Wrapped lobes, without and with normalisation", "[McA13], before and after", &make_normalized_figure},
+        {"normalized", "Wrapped lobes, without and with normalization", "[McA13], before and after", &make_normalized_figure},
         {"area-light", "A sphere of light, and the wrapped lobes nearest to it", "[McA13], the widths and powers", &make_area_light_figure},
         {"half-lambert", "Lambert, half-Lambert and its square", "[Lis]; [Valve06]", &make_half_lambert_figure},
         {"gamma", "Half-Lambert in sRGB codes and in linear light", "[Lis]; [Valve06]", &make_gamma_figure},

@@ -161,7 +161,7 @@ Result<Figure> make_highlights_figure() {
         "mirrored L, and H is half-way between L and V. p = s/4, because R turns twice as fast as H. Lacquer of roughness {:g}, s = "
         "{:.0f}, "
         "one directional light of strength 1.5. On the ball the two look alike. At grazing angles Blinn's grows long, as on a wet road, "
-        "while Phong's stays round. Unlike in the source, both are multiplied by N·L and normalised.",
+        "while Phong's stays round. Unlike in the source, both are multiplied by N·L and normalized.",
         static_cast<double>(kRoughness), shading::specular_exponent(static_cast<double>(kRoughness)));
     const std::string energy = fmt::format(
         " Polar plots: radiance reflected in the plane of incidence, k_{{d}} = {:g}, k_{{s}} = {:g}, s = {:g}, p = {:g}, with the factor "

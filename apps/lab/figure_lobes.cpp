@@ -85,13 +85,13 @@ Result<Figure> make_green_sloan_figure() {
 }
 
 Result<Figure> make_normalized_figure() {
-    constexpr float kStrength = 0.6f;  // 0.6 * 5/3, the largest normalising factor, is 1
+    constexpr float kStrength = 0.6f;  // 0.6 * 5/3, the largest normalizing factor, is 1
     const Lobe lobes[] = {Lobe::valve(), Lobe::sloan(0.5f), {0.5f, 4.0f, false}};
     const auto normalized = [](Lobe lobe, bool on) {
         lobe.normalize = on;
         return lobe;
     };
-    PictureGrid grid{.columns = {"as it is", "normalised", "as it is", "normalised"},
+    PictureGrid grid{.columns = {"as it is", "normalized", "as it is", "normalized"},
                      .rows = {"Valve\n(w 1, n 2)", "Sloan, a = 0.5\n(w 0.5, n 1.5)", "generic\n(w 0.5, n 4)"},
                      .width = 165};
     auto pictures = take_grid(std::move(grid), [&](std::size_t row, std::size_t column) {
@@ -99,7 +99,7 @@ Result<Figure> make_normalized_figure() {
                    kStrength);
     });
     if (!pictures) return tl::unexpected(pictures.error());
-    Plot plot{.title = "The three lobes, as they are (dashed) and normalised",
+    Plot plot{.title = "The three lobes, as they are (dashed) and normalized",
               .x = {.label = "cos θ", .min = -1, .max = 1},
               .y = {.label = "reflected", .min = 0, .max = 1.75},
               .series = {},
@@ -111,11 +111,11 @@ Result<Figure> make_normalized_figure() {
     const char* const colors[] = {"#0072b2", "#d55e00", "#009e73"};
     for (std::size_t i = 0; i < 3; ++i) {
         plot.series.push_back(over_cosine(std::string(names[i]) + ", as it is", normalized(lobes[i], false), colors[i], "5 3"));
-        plot.series.push_back(over_cosine(std::string(names[i]) + ", normalised", normalized(lobes[i], true), colors[i]));
+        plot.series.push_back(over_cosine(std::string(names[i]) + ", normalized", normalized(lobes[i], true), colors[i]));
     }
     return Figure{
         .caption =
-            "The lobe (max(0, cos θ + w)/(1 + w))^{n} as it is, and normalised: times (n + 1)/(2(1 + w)), which makes the mean over all "
+            "The lobe (max(0, cos θ + w)/(1 + w))^{n} as it is, and normalized: times (n + 1)/(2(1 + w)), which makes the mean over all "
             "light "
             "directions Lambert's. Here θ is the angle between normal and light. The factors are 3/4, 5/6 and 5/3, so the first two lobes "
             "get darker and the last one brighter. One directional light of strength 0.6 (direction 0.8, 0.6, 0.5), chosen so that nothing "

@@ -103,10 +103,10 @@ def draw(program, pairs, folder):
                      for fault in result]
     for pair in pairs:
         files = [folder / pair.file(side) for side in (0, 1)]
-        if all(file.exists() for file in files):
-            done = subprocess.run([program, "diff", *files, "--quiet"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
-            if done.returncode == 0:
-                found.append(f"{pair.flag}: its two pictures are equal")
+        if all(file.exists() for file in files) and len({file.read_bytes()[16:24] for file in files}) == 1:  # PNG's width and height
+            done = subprocess.run([program, "diff", *files], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+            if done.returncode != 1:  # 1: they differ
+                found.append(f"{pair.flag}: its two pictures are equal, or cannot be compared: {done.stderr.decode().strip()}")
     return found
 
 
@@ -130,7 +130,7 @@ def page_of(program, pairs):
 
 def make(program, output, only=()):
     """The page and its pictures; returns the number of pictures. Ends the program at faults."""
-    pairs = read_table()
+    pairs, program = read_table(), str(pathlib.Path(program).resolve())
     drawn = [pair for pair in pairs if not pair.reason and (not only or pair.flag in only)]
     folder = pathlib.Path(output).resolve() / "flag_pictures"
     folder.mkdir(parents=True, exist_ok=True)

@@ -101,6 +101,7 @@ def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     shutil.rmtree(SOURCE, ignore_errors=True)
     pages = gather()
+    shutil.copyfile(HERE / "site.css", SOURCE / "site.css")
     figures = draw_figures(program)
     pictures = flag_pictures.make(program, SOURCE / "docs")
     if len(sys.argv) == 3:

@@ -138,8 +138,10 @@ constexpr Document kDocuments[] = {
     {"SECURITY.md", "What is promised of files from strangers, and how to limit time and memory"},
 };
 constexpr Document kLibrary[] = {
-    {"docs/library.md", "Embedding in C++ and C; headers; Python"}, {"docs/reference.md", "The public names in C++ and C"},
-    {"apps/io/README.md", "Reading models and pictures; formats"},  {"apps/python/README.md", "The Python package"},
+    {"docs/library.md", "Embedding: CMake, pkg-config, headers, programs to copy from, Python"},
+    {"docs/reference.md", "The public names in C++ and C"},
+    {"apps/io/README.md", "Reading models and pictures; formats"},
+    {"apps/python/README.md", "The Python package"},
     {"apps/examples/README.md", "Short programs to copy from"},
 };
 constexpr Document kInside[] = {

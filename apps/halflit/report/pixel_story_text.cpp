@@ -44,7 +44,7 @@ std::string material_text(const PixelStory& story) {
     const Material& material = story.material;
     std::string text = story.material_index < 0 ? std::string("material: the default\n")
                                                 : fmt::format("material: {}{}\n", story.material_index, quoted(material.name));
-    text += fmt::format("  lobe: wrap {}, power {}{}\n", story.lobe.wrap, story.lobe.power, story.lobe.normalize ? ", normalised" : "");
+    text += fmt::format("  lobe: wrap {}, power {}{}\n", story.lobe.wrap, story.lobe.power, story.lobe.normalize ? ", normalized" : "");
     const Material plain;
     for (std::size_t row = 0; row < shading::kMaterialNumberCount; ++row) {
         const shading::MaterialNumber& number = shading::kMaterialNumbers[row];

@@ -70,7 +70,7 @@ bool lobe_controls(Controls& c, bool has_own_lobes) {
     };
     moved(ImGui::SliderFloat("n (power)", &c.lobe.power, 0.0f, 8.0f, "%.2f"));
     c.lobe.power = std::clamp(c.lobe.power, 0.0f, kMaxLobePower);
-    moved(ImGui::Checkbox("normalise (lights and environment)", &c.lobe.normalize));
+    moved(ImGui::Checkbox("normalize (lights and environment)", &c.lobe.normalize));
     std::array<float, 129> values{};
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = static_cast<float>(shading::reference::lobe_value(c.lobe, static_cast<double>(i) / 64.0 - 1.0));
@@ -83,7 +83,7 @@ bool lobe_controls(Controls& c, bool has_own_lobes) {
 bool highlight_and_shadow_controls(Controls& c) {
     constexpr int kSkyShadows[] = {0, 16, 64, 256};
     bool changed = choose("specular", c.specular, cli::kSpecularNames);
-    changed |= ImGui::Checkbox("normalise highlights", &c.normalize_specular);
+    changed |= ImGui::Checkbox("normalize highlights", &c.normalize_specular);
     changed |= choose("shadows", c.shadows, cli::kShadowModeNames);
     changed |= choose_number("sky shadows", c.sky_shadows, kSkyShadows, "off");
     return changed;
