@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the site of the documentation: build/site, by mkdocs.
+"""Makes the site of the documentation, by mkdocs.
 
-    site.py PROGRAM [REFERENCE]    REFERENCE: the folder of doxygen's HTML
+    site.py PROGRAM OUTPUT [REFERENCE]    OUTPUT/site is the site. REFERENCE: the folder of doxygen's HTML
 
-The sources of the site are a copy of README.md, of docs/*.md and of all files that they link to, under the same paths: so a link works in
-the repository and on the site. To these come pictures for each flag (flag_pictures.py), and the figures that the course names.
+Exit code 77: there is no mkdocs. The sources of the site, in OUTPUT/source, are a copy of README.md, of docs/*.md and of all files that
+they link to, under the same paths: so a link works in the repository and on the site. To these come pictures for each flag
+(flag_pictures.py), and the figures that the course names.
 """
 import html
 import pathlib
@@ -17,7 +18,6 @@ import flag_pictures
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-SOURCE = ROOT / "build/docs/source"
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 FIGURE = re.compile(r"^<!-- figure: ([a-z-]+) -->$", re.M)
 
@@ -60,8 +60,8 @@ def for_mkdocs(text):
     return "\n".join(out)
 
 
-def gather():
-    """Copies the pages and what they link to."""
+def gather(source):
+    """Copies the pages and what they link to. Returns the number of pages."""
     pages = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
     seen = set(pages)
     for path in pages:  # grows while it is read
@@ -73,44 +73,50 @@ def gather():
             if target.suffix == ".md":
                 pages.append(target)
             else:
-                copy = SOURCE / target.relative_to(ROOT)
+                copy = source / target.relative_to(ROOT)
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(target, copy)
-        copy = SOURCE / path.relative_to(ROOT)
+        copy = source / path.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_text(for_mkdocs(text), encoding="utf-8")
     return len(pages)
 
 
-def draw_figures(program):
-    """Replaces the marks of figures in the pages by figures of the program."""
+def draw_figures(program, source):
+    """Replaces the marks of figures in the pages by figures of the program. Returns their number."""
     count = 0
-    for path in sorted((SOURCE / "docs").glob("*.md")):
+    for path in sorted((source / "docs").glob("*.md")):
         text = path.read_text(encoding="utf-8")
         names = FIGURE.findall(text)
         if names:
-            subprocess.run([program, "figures", *names, "-o", SOURCE / "docs/figures", "--quiet"], check=True)
+            subprocess.run([program, "figures", *names, "-o", source / "docs/figures", "--quiet"], check=True)
             path.write_text(FIGURE.sub(r"![The figure \1 of `halflit figures`](figures/\1.svg)", text), encoding="utf-8")
         count += len(names)
     return count
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
-    program = str(pathlib.Path(sys.argv[1]).resolve())
-    shutil.rmtree(SOURCE, ignore_errors=True)
-    pages = gather()
-    shutil.copyfile(HERE / "site.css", SOURCE / "site.css")
-    figures = draw_figures(program)
-    pictures = flag_pictures.make(program, SOURCE / "docs")
-    if len(sys.argv) == 3:
-        shutil.copytree(sys.argv[2], SOURCE / "reference")
-        with open(SOURCE / "docs/reference.md", "a", encoding="utf-8") as file:
+    if not shutil.which("mkdocs"):
+        print("site.py: there is no mkdocs")
+        return 77
+    program, output = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
+    source = output / "source"
+    shutil.rmtree(source, ignore_errors=True)
+    pages = gather(source)
+    for name, folder in (("site.css", source), ("mkdocs.yml", output)):
+        shutil.copyfile(HERE / name, folder / name)
+    figures = draw_figures(program, source)
+    pictures = flag_pictures.make(program, source / "docs")
+    if len(sys.argv) == 4:
+        shutil.copytree(sys.argv[3], source / "reference")
+        with open(source / "docs/reference.md", "a", encoding="utf-8") as file:
             file.write("\n[All names, by doxygen](../reference/index.html)\n")
-    subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", HERE / "mkdocs.yml"], check=True)
+    subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", output / "mkdocs.yml"], check=True)
     print(f"{pages + 1} pages, {figures} figures, {pictures} pictures of flags", file=sys.stderr)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

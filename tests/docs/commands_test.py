@@ -32,8 +32,10 @@ def not_run():
     return rows
 
 
-def damaged_models(folder):
+def damaged_models(folder, program):
     """What docs/troubleshooting.md names."""
+    for name, size in (("tall", "60x90"), ("wide", "90x60")):
+        subprocess.run([program, "demo", folder / f"{name}.png", "--size", size, "--quiet"], check=True)
     (folder / "wrong.glb").write_text("<html>404</html>")
     (folder / "character.fbx").write_bytes(b"Kaydara FBX Binary  \0")
     (folder / "empty.stl").write_bytes(b"")
@@ -94,7 +96,7 @@ def main():
             folder = pathlib.Path(work) / page.stem
             small_models.write_all(folder)
             if page.stem == "troubleshooting":
-                damaged_models(folder)
+                damaged_models(folder, program)
             golden_folders(folder)
             for number, line, printed in pages.commands(page):
                 start = next((start for start in reasons if line.startswith(start)), None)
