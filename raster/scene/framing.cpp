@@ -299,7 +299,8 @@ public:
             const Instance& instance = scene_->instances[static_cast<std::size_t>(i)];
             const Mesh& mesh = scene_->meshes[static_cast<std::size_t>(instance.mesh)];
             const FramedVertices& vertices = part_.meshes[static_cast<std::size_t>(instance.mesh)];
-            if (is_seen_already(fit, vertices, radii_[static_cast<std::size_t>(instance.mesh)], instance.world_from_object, box_.center)) continue;
+            const double radius = radii_[static_cast<std::size_t>(instance.mesh)];
+            if (is_seen_already(fit, vertices, radius, instance.world_from_object, box_.center)) continue;
             for (const std::uint32_t v : vertices.vertices) {
                 check();
                 const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);

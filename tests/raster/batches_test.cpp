@@ -53,13 +53,13 @@ void add_vertices(Scene& scene) {
     scene.instances = std::move(instances);
 }
 
-/// Balls of 10,000 triangles each among the others, some of them masks and layers.
+/// Balls of 5,000 triangles each among the others, some of them masks and layers.
 void add_balls(Random& random, Scene& scene, int count) {
     const int mesh = static_cast<int>(scene.meshes.size());
-    scene.meshes.push_back(make_sphere_of(1.0f, 10'000));
+    scene.meshes.push_back(make_sphere_of(1.0f, 5'000));
     for (int i = 0; i < count; ++i) {
         Mat4 place;
-        place.c[3] = {random.real32(-2, 2), random.real32(-2, 2), random.real32(-2, 2), 1};
+        place.c[3] = {random.real32(-0.5, 0.5), random.real32(-0.5, 0.5), random.real32(-0.5, 0.5), 1};
         scene.instances.push_back({mesh, place});
         scene.instances.back().material = i % 8 < 6 ? 0 : random.index(static_cast<int>(scene.materials.size()));
     }
@@ -151,8 +151,11 @@ TEST_CASE("batches: with little memory hidden triangles are dropped on the way, 
     for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
         Random random(seed + 4321);
         Shot shot = any_shot(seed);
+        shot.scene.instances.clear();  // its materials and lights are enough
+        shot.settings.region = {}, shot.settings.samples = 16;  // so that small triangles are kept
         add_odd_things(random, shot);
-        add_balls(random, shot.scene, 800);
+        add_balls(random, shot.scene, 1600);
+        shot.camera = frame_scene(shot.scene, static_cast<float>(kViewWidth) / kViewHeight, {});
         const Isa isa = isas[static_cast<std::size_t>(random.index(static_cast<int>(isas.size())))];
         const Execution much = execution_of(1 + static_cast<int>(seed % 2), 64, isa);
         Execution little = much;
@@ -162,11 +165,11 @@ TEST_CASE("batches: with little memory hidden triangles are dropped on the way, 
         const Pixels all = draw(shot, renderer, much), few = draw(shot, other, little);
         CHECK(differing(all, few) == 0);
         CHECK(all.fragments == few.fragments);
-        if (shot.settings.region.width == 0) CHECK(points_of(shot, renderer, much) == points_of(shot, other, little));
+        CHECK(points_of(shot, renderer, much) == points_of(shot, other, little));
         const MadeView whole = made_view(shot), made = made_view(shot, little);
         CHECK(whole.kept == whole.drawn);
         CHECK(made.drawn == whole.drawn);
         dropping += made.kept < whole.kept ? 1 : 0;
     }
-    CHECK(dropping >= kScenes / 2);
+    CHECK(dropping >= kScenes / 2);  // where enough of the balls are large in the picture
 }
