@@ -105,6 +105,18 @@ TEST_CASE("bench: the least time is not above the median, and the pixels are tho
     CHECK(report["pixel_hash"] == hash_text(read_picture(run({"render", "sphere:500", "--size", "60x40", "-o", "-"}).out)));
 }
 
+TEST_CASE("bench: the rates are those of the median frame", "[cli]") {
+    const std::string text = run({"bench", "sphere:500", "--frames", "3", "--size", "1000x1000"}).out;
+    const std::size_t at = text.find("  median");
+    REQUIRE(at != std::string::npos);
+    double ms = 0, frames = 0, pixels = 0, triangles = 0;
+    REQUIRE(std::sscanf(text.c_str() + at, "  median %lf ms: %lf frames, %lf million pixels, %lf million triangles a second", &ms, &frames,
+                        &pixels, &triangles) == 4);
+    CHECK(std::abs(frames - 1e3 / ms) <= 0.05 + 1e-3 * frames);        // printed with one digit behind the point
+    CHECK(std::abs(pixels - 1e3 / ms) <= 0.05 + 1e-3 * pixels);        // a million pixels a frame
+    CHECK(std::abs(triangles - 0.5 / ms) <= 0.05 + 0.05 * triangles);  // about 500 a frame
+}
+
 TEST_CASE("bench: nothing is encoded unless asked for", "[cli]") {
     CHECK_FALSE(json_of(run({"bench", "sphere:500", "--frames", "1", "--json", "--size", "60x40"}).out).contains("encode_ms"));
     CHECK(run({"bench", "sphere:500", "--frames", "1", "--size", "60x40"}).out.find("PNG") == std::string::npos);

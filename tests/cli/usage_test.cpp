@@ -126,6 +126,7 @@ TEST_CASE("usage: a file that is not there is an error with the name of a file t
     check_error(run({"render", folder.file("dukc.glb")}), 4, "did you mean " + folder.file("duck.glb"));
     check_error(run({"render", "sphere"}, {.folder = folder.path()}), 4, "did you mean sphere:N?");
     check_error(run({"render", "--env", "skyy"}, {.folder = folder.path()}), 4, "did you mean sky?");
+    check_error(run({"render", "--env", "foo"}, {.folder = folder.path()}), 4, "--env: foo: cannot be opened");
 }
 
 TEST_CASE("usage: bytes that are no model end with 3", "[cli]") {

@@ -114,7 +114,7 @@ TEST_CASE("models: what is no model is refused by name", "[io]") {
     std::string picture = "\x89PNG\r\n";
     for (int i = 0; i < 400; ++i) picture += static_cast<char>(i * 37 % 251);
     CHECK(refusal_of(to_bytes(picture)).find("it holds no shape") != std::string::npos);
-    CHECK(refusal_of({}).find("no bytes at all") != std::string::npos);
+    CHECK(refusal_of({}).find("the file is empty") != std::string::npos);
 }
 
 TEST_CASE("models: an animation that no such file has is refused, and none is not", "[io]") {

@@ -54,7 +54,12 @@ std::string table(const Json& report) {
                                    report["size"][1].get<int>(), report["isa"].get<std::string>(), report["threads"].get<int>());
     text += fmt::format("  min     {:10.3f} ms, of which\n", report["min_ms"].get<double>());
     for (const auto& [stage, ms] : report["stages"].items()) text += fmt::format("    {:<10}{:6.3f} ms\n", stage, ms.get<double>());
-    text += fmt::format("  median  {:10.3f} ms\n", report["median_ms"].get<double>());
+    const double frames_a_second = 1e3 / std::max(report["median_ms"].get<double>(), 1e-6);
+    const auto millions_a_second = [&](double count) { return count * frames_a_second / 1e6; };
+    text += fmt::format("  median  {:10.3f} ms: {:.1f} frames, {:.1f} million pixels, {:.1f} million triangles a second\n",
+                        report["median_ms"].get<double>(), frames_a_second,
+                        millions_a_second(report["size"][0].get<double>() * report["size"][1].get<double>()),
+                        millions_a_second(report["triangles_submitted"].get<double>()));
     text +=
         fmt::format("  load    {:10.3f} ms\n  prepare {:10.3f} ms\n", report["load_ms"].get<double>(), report["prepare_ms"].get<double>());
     if (report.contains("encode_ms")) text += fmt::format("  encode  {:10.3f} ms (PNG)\n", report["encode_ms"].get<double>());

@@ -69,7 +69,7 @@ std::string pose_choice(const AnimationInfo& animation, int index, double time_s
 /// Replaces the ambient light by the environment.
 Result<void> add_environment(Lighting& light, const RenderOptions& options) {
     auto image = find_environment(options.environment);
-    if (!image) return tl::unexpected(image.error());
+    if (!image) return fail(image.error().code, "--env: " + image.error().message);
     const auto environment =
         make_environment(std::move(*image), {options.environment_sun, static_cast<double>(options.environment_rotate_deg) * (kPi / 180.0),
                                              options.settings.background_environment,

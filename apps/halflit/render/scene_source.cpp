@@ -52,9 +52,10 @@ Result<EnvironmentImage> find_environment(const std::string& name) {
     if (name == "sky") return built_in_sky();
     if (name == "studio") return studio_image();
     auto environment = read_environment(name);
-    if (!environment && environment.error().code == ErrorCode::io)
-        return fail(ErrorCode::io, environment.error().message + did_you_mean_file(name, {"sky", "studio"}));
-    return environment;
+    if (environment || environment.error().code != ErrorCode::io) return environment;
+    const std::string meant = did_you_mean_file(name, {"sky", "studio"});
+    return fail(ErrorCode::io,
+                environment.error().message + (meant.empty() ? "; expected a picture of floats (.hdr, .exr, .pfm), sky or studio" : meant));
 }
 
 }  // namespace halflit::cli

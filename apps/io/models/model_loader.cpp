@@ -85,7 +85,7 @@ LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base
     const FormatRow* const row = find_format(bytes);
     if (const ForeignFormat* const foreign = find_foreign_format(bytes))
         refuse("", fmt::format("is {}, which is not read; {}", foreign->name, foreign->advice));
-    if (bytes.empty()) refuse("", "has no bytes at all");
+    if (bytes.empty()) refuse("", "the file is empty");
     if (row == nullptr) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
     return row->read(bytes, base_dir, options);
 }

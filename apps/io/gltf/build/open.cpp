@@ -164,7 +164,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     if (bytes.size() > options.limits.max_file_bytes)
         refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
                ErrorCode::limit);
-    if (bytes.empty()) refuse("", "expected a glTF file, found no bytes at all");
+    if (bytes.empty()) refuse("", "the file is empty, expected a glTF file");
     auto document = std::make_unique<Document>(options, base_dir);
     take(document->folder.check(), "");
     document->file_bytes = bytes.size();
