@@ -2,6 +2,7 @@
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/flags/command_line.hpp"
 #include "apps/halflit/flags/help_text.hpp"
+#include "apps/halflit/golden/self_test.hpp"
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/interrupt.hpp"
 #include "apps/halflit/program/messages.hpp"
@@ -85,6 +86,11 @@ int parse_and_run(int argc, char** argv) {
             return run(*line->command);
         case ParsedLine::Wanted::version:
             return print("halflit " + std::string(version()) + " (pixel_epoch " + std::to_string(kPixelEpoch) + ")\n");
+        case ParsedLine::Wanted::self_test: {
+            const SelfTest test = run_self_test(self_test_scenes());
+            const int code = print(test.text);
+            return code == 0 && !test.passed ? 1 : code;
+        }
         case ParsedLine::Wanted::help:
         case ParsedLine::Wanted::help_all:
             break;

@@ -42,6 +42,11 @@ TEST_CASE("help: limits are shown by --help-all alone", "[cli][help]") {
     CHECK(contains(run({"render", "--help-all"}).out, "--max-json-depth"));
 }
 
+TEST_CASE("help: the program's help names the commands that its list leaves out, and --self-test", "[cli][help]") {
+    const std::string help = run({"--help"}).out;
+    for (const char* part : {"halflit man", "halflit completion", "halflit flags", "--self-test"}) CHECK(contains(help, part));
+}
+
 TEST_CASE("help: docs/flags.md is the output of the program", "[cli][help]") {
     const std::string page = contents(HALFLIT_SOURCE_DIR "/docs/flags.md");
     CHECK(page.size() > 1000);

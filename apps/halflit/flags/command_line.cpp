@@ -106,14 +106,18 @@ std::vector<std::string> command_names(std::span<const Command> commands) {
 /// Words that may come first: commands, built-in scenes, and the models in this folder.
 std::vector<std::string> known_words(std::span<const Command> commands) {
     std::vector<std::string> words = command_names(commands);
-    words.insert(words.end(), {"help", "demo", "sphere:N", "lights:N", "--version"});
+    words.insert(words.end(), {"help", "demo", "sphere:N", "lights:N", "--version", "--self-test"});
     for (std::string& file : files_beside(""))
         if (is_model_name(file)) words.push_back(std::move(file));
     return words;
 }
 
 std::vector<std::string> flag_names(const Command* command) {
-    std::vector<std::string> names = {"--help", command != nullptr ? "--help-all" : "--version"};
+    std::vector<std::string> names = {"--help"};
+    if (command == nullptr)
+        names.insert(names.end(), {"--version", "--self-test"});
+    else
+        names.push_back("--help-all");
     if (command != nullptr)
         for (const Flag* flag : flags_of(*command)) names.push_back(flag->long_name());
     return names;
@@ -196,6 +200,11 @@ Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::ve
     root.set_help_flag("-h,--help");
     root.set_help_all_flag("--help-all");
     root.set_version_flag("-V,--version", "");
+    bool self_test = false;
+    root.add_flag_callback("--self-test", [&self_test] {
+        self_test = true;
+        throw CLI::CallForVersion();  // ends the parsing in the same way: it asks for no command
+    });
     root.require_subcommand(1);
     for (const Command& command : commands) add_command(root, command, arguments);
     const auto chosen = [&]() -> const Command* {
@@ -208,7 +217,7 @@ Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::ve
     try {
         root.parse(std::move(arguments));
     } catch (const CLI::CallForVersion&) {
-        return ParsedLine{nullptr, ParsedLine::Wanted::version};
+        return ParsedLine{nullptr, self_test ? ParsedLine::Wanted::self_test : ParsedLine::Wanted::version};
     } catch (const CLI::CallForAllHelp&) {
         return ParsedLine{chosen(), ParsedLine::Wanted::help_all};
     } catch (const CLI::CallForHelp&) {

@@ -10,8 +10,8 @@
 namespace halflit::cli {
 
 struct ParsedLine {
-    enum class Wanted { run, help, help_all, version };
-    const Command* command = nullptr;  ///< null: none, with help or version
+    enum class Wanted { run, help, help_all, version, self_test };
+    const Command* command = nullptr;  ///< null: none, with help, version or self_test
     Wanted wanted = Wanted::run;
 };
 

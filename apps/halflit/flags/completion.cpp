@@ -83,7 +83,7 @@ std::string bash_completion(std::span<const Command> commands) {
            "    if [[ $COMP_CWORD == 1 ]]; then\n"
            "        COMPREPLY=($(compgen -W \"" +
            command_words(commands) +
-           " --help --version\" -- \"$word\") $(compgen -f -- \"$word\"))\n"
+           " --help --version --self-test\" -- \"$word\") $(compgen -f -- \"$word\"))\n"
            "        return\n"
            "    fi\n"
            "    [[ \" " +

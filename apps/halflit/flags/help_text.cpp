@@ -62,10 +62,16 @@ std::string program_help(std::span<const Command> commands, std::size_t width) {
         std::string(kProgramHelp) + "\n\nUsage: halflit SCENE [PICTURE] [FLAGS]\n       halflit COMMAND [FLAGS]\n\nCommands:\n";
     for (const Command& command : commands)
         if (!command.hidden) text += "  " + command.name + std::string(12 - command.name.size(), ' ') + folded(command.help, 14, 14, width);
-    text += "\nFlags:\n" + row("-h, --help", "Print this help", width) + row("-V, --version", "Print the version", width);
+    text += "\nFlags:\n" + row("-h, --help", "Print this help", width) + row("-V, --version", "Print the version", width) +
+            row("--self-test",
+                "Draw small built-in scenes by every instruction set, and compare them with built-in hashes; for reports of faults", width);
     return text + "\n" +
            folded("'halflit model.glb' is 'halflit render model.glb'. Run 'halflit COMMAND --help' for the flags of a command.", 0, 0,
                   width) +
+           folded(
+               "'halflit man [COMMAND]' prints a manual page, 'halflit completion bash|zsh|fish' a script that completes the command line, "
+               "'halflit flags' all flags.",
+               0, 0, width) +
            folded(kExitCodesHelp, 0, 0, width);
 }
 

@@ -1,0 +1,107 @@
+#include "apps/halflit/golden/self_test.hpp"
+
+#include "apps/halflit/render/render_job.hpp"
+#include "halflit/isa.hpp"
+#include "halflit/target.hpp"
+#include "halflit/version.hpp"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+namespace halflit::cli {
+namespace {
+
+constexpr SelfTestScene kSelfTestScenes[] = {
+#define HALFLIT_SELF_TEST(name, scene, flags, expected) {name, scene, flags, expected},
+#include "apps/halflit/golden/self_test_scenes.def"
+#undef HALFLIT_SELF_TEST
+};
+
+#if defined(__clang__)
+constexpr const char* kCompiler = __VERSION__;  // "Clang 14.0.6"
+#else
+constexpr const char* kCompiler = "GCC " __VERSION__;
+#endif
+
+std::vector<Isa> isas_of_machine() {
+    std::vector<Isa> isas;
+    std::copy_if(built_isas().begin(), built_isas().end(), std::back_inserter(isas), isa_available);
+    return isas;
+}
+
+/// The value of the first line of a system's file that begins with the key, without quotes; empty if there is none.
+std::string system_value(const char* path, std::string_view key, char separator) {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with(key)) continue;
+        const std::size_t begin = line.find_first_not_of(" \t\"", std::min(line.find(separator), line.size() - 1) + 1);
+        if (begin == std::string::npos) return {};
+        line = line.substr(begin);
+        return line.substr(0, line.find_last_not_of('"') + 1);
+    }
+    return {};
+}
+
+/// "Linux 6.1.0 x86_64, Debian GNU/Linux 12 (bookworm)"
+std::string system_name() {
+    struct utsname names {};
+    if (::uname(&names) != 0) return "unknown";
+    const std::string distribution = system_value("/etc/os-release", "PRETTY_NAME=", '=');
+    return fmt::format("{} {} {}{}{}", names.sysname, names.release, names.machine, distribution.empty() ? "" : ", ", distribution);
+}
+
+/// The build and the machine, which a report of a fault needs.
+std::string self_test_head(const std::vector<Isa>& isas) {
+    std::vector<std::string> names;
+    for (const Isa isa : isas) names.emplace_back(isa_name(isa));
+    const auto chosen = default_isa();
+    const std::string processor = system_value("/proc/cpuinfo", "model name", ':');
+    return fmt::format(
+        "halflit {}\npixel epoch: {}\nprocessor: {}\ninstruction sets: {}; in use: {}\ncompiler: {}\nsystem: {}\n"
+        "threads: {}\n",
+        version(), pixel_epoch(), processor.empty() ? "unknown" : processor, joined(names, ", "),
+        chosen ? std::string(isa_name(*chosen)) : "none, " + chosen.error().message, kCompiler, system_name(),
+        std::max(1u, std::thread::hardware_concurrency()));
+}
+
+/// "ok", or what is wrong with the first instruction set that gives another picture.
+Result<std::string> self_test_outcome(const SelfTestScene& scene, const std::vector<Isa>& isas) {
+    auto options = parse_render_flags(words_of(scene.flags, ' '));
+    if (!options) return tl::unexpected(options.error());
+    options->scene = scene.scene;
+    auto job = make_render_job(*options, kRenderSize);
+    if (!job) return tl::unexpected(job.error());
+    for (const Isa isa : isas) {
+        job->execution.isa = isa;
+        Image image = make_image(*job, false);
+        const auto drawn =
+            Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->execution);
+        if (!drawn) return tl::unexpected(drawn.error());
+        if (const std::uint64_t found = pixel_hash(image.rgba8); found != scene.expected)
+            return fmt::format("DIFFERENT expected {:016x} found {:016x} by {}", scene.expected, found, isa_name(isa));
+    }
+    return "ok";
+}
+
+}  // namespace
+
+std::span<const SelfTestScene> self_test_scenes() { return kSelfTestScenes; }
+
+SelfTest run_self_test(std::span<const SelfTestScene> scenes) {
+    const std::vector<Isa> isas = isas_of_machine();
+    SelfTest test{self_test_head(isas)};
+    for (const SelfTestScene& scene : scenes) {
+        const auto outcome = self_test_outcome(scene, isas);
+        const std::string text = outcome ? *outcome : "FAILED " + outcome.error().message;
+        test.passed &= text == "ok";
+        test.text += fmt::format("{:<12} {}\n", scene.name, text);
+    }
+    return test;
+}
+
+}  // namespace halflit::cli
