@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Makes the files of a release (`./dev release`): packages, source, hashes of pixels, notes, and checksums of all of them.
+#   release.sh [--source-only] [--dirty] FOLDER     FOLDER: new, or one that an earlier run made
+# HALFLIT_HOMEPAGE is the address of the project in the recipes; by default a placeholder.
+set -euo pipefail
+
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+root=$(dirname "$here")
+source_only='' dirty=''
+while [[ ${1:-} = --* ]]; do
+    case $1 in
+    --source-only) source_only=1 ;;
+    --dirty) dirty=1 ;;
+    *)
+        echo "release: unknown flag $1" >&2
+        exit 2
+        ;;
+    esac
+    shift
+done
+[ $# -eq 1 ] || {
+    echo "usage: release.sh [--source-only] [--dirty] FOLDER" >&2
+    exit 2
+}
+
+fail() {
+    echo "release: $*" >&2
+    exit 1
+}
+
+# step NAME COMMAND...: says how long it took.
+step() {
+    local start=$SECONDS name=$1
+    shift
+    "$@"
+    echo "release: $name: $((SECONDS - start)) s" >&2
+}
+
+version=$("$here/versions.py" "$root") || fail "the versions disagree; see above"
+[ -n "$dirty" ] || git -C "$root" diff --quiet HEAD -- || fail "there are changes that are not committed (--dirty releases the last commit)"
+mkdir -p "$1"
+folder=$(realpath "$1")
+[ ! -e "$folder/SHA256SUMS" ] || (cd "$folder" && cut -c67- SHA256SUMS | xargs -rd '\n' rm -f && rm SHA256SUMS)
+[ -z "$(ls -A "$folder")" ] || fail "$folder: expected an empty folder, found other files"
+start=$(mktemp)
+trap 'rm -f "$start"' EXIT
+
+make_source() {
+    git -C "$root" archive --format=tar --prefix="halflit-$version/" HEAD | gzip -9n >"$folder/halflit-$version.tar.gz"
+}
+
+# The packages that ./dev package makes, by each way that this machine has the tools for.
+make_packages() {
+    local way help
+    help=$("$root/dev" package --help)
+    step package "$root/dev" package >&2
+    step wheel "$root/dev" package --python >&2
+    if command -v npm >/dev/null && command -v emcc >/dev/null; then
+        step npm "$root/dev" package --npm >&2
+    else
+        echo "release: no npm or Emscripten: the package for npm is left out" >&2
+    fi
+    if [[ $help = *--portable* ]]; then step portable "$root/dev" package --portable >&2; fi
+    find "$root/build/packages" -maxdepth 1 -type f -newer "$start" -name "*halflit*" -exec cp -t "$folder" {} +
+    # The program that was packaged draws what the hashes say.
+    "$root/build/install/bin/halflit" --self-test >&2
+}
+
+step source make_source
+[ -n "$source_only" ] || make_packages
+"$here/hashes.py" "$root" >"$folder/hashes.txt"
+awk -v version="$version" '/^## / { inside = ($2 == version) } inside' "$root/CHANGELOG.md" >"$folder/notes.md"
+[ -s "$folder/notes.md" ] || fail "CHANGELOG.md has no section of $version"
+"$here/recipes.sh" "$version" "$folder/halflit-$version.tar.gz" "$folder/recipes"
+tar -C "$folder" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -c recipes | gzip -9n >"$folder/halflit-$version-recipes.tar.gz"
+rm -r "$folder/recipes"
+(cd "$folder" && find . -maxdepth 1 -type f ! -name SHA256SUMS -printf '%P\n' | LC_ALL=C sort | xargs -d '\n' sha256sum >SHA256SUMS)
+(cd "$folder" && ls -l && sha256sum --quiet -c SHA256SUMS)
