@@ -139,8 +139,12 @@ public:
             const float over = static_cast<float>(share) / 255.0f, under = 1.0f - over;
             const float alpha = over + p[3] * under;
             const float color[3] = {color_.x, color_.y, color_.z};
-            for (int c = 0; c < 3; ++c)
-                p[c] = output_.is_premultiplied() ? color[c] * over + p[c] * under : (color[c] * over + (p[c] * p[3]) * under) / alpha;
+            // Light may be infinite, as a background's: what does not show is not counted.
+            const bool shows = under > 0.0f && p[3] > 0.0f;
+            for (int c = 0; c < 3; ++c) {
+                const float below = !shows ? 0.0f : output_.is_premultiplied() ? p[c] * under : (p[c] * p[3]) * under;
+                p[c] = output_.is_premultiplied() ? color[c] * over + below : (color[c] * over + below) / alpha;
+            }
             p[3] = alpha;
         }
     }

@@ -8,6 +8,7 @@
 #include "raster/passes/tile.hpp"
 #include "raster/quality.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 
@@ -17,7 +18,7 @@ namespace halflit::raster {
 class LayerBudget {
 public:
     LayerBudget(const Settings& settings, int width, int height)
-        : layers_(settings.max_layers), left_(std::int64_t{layers_} * width * height * settings.samples) {}
+        : layers_(settings.max_layers), left_(layers_ * std::max(std::int64_t{width} * height, kLeastPixels) * settings.samples) {}
     /// Counts samples of them. Throws Stopped if the picture has too many, in whatever order they come.
     void take(std::size_t samples) {
         const auto n = static_cast<std::int64_t>(samples);
@@ -27,7 +28,8 @@ public:
     }
 
 private:
-    int layers_;  ///< 0: no limit
+    static constexpr std::int64_t kLeastPixels = 1 << 18;  ///< no smaller picture is too much work
+    int layers_;                                           ///< 0: no limit
     std::atomic<std::int64_t> left_;
 };
 

@@ -189,7 +189,7 @@ TEST_CASE("limits: copies of an opaque triangle are drawn once, and those that b
 
 TEST_CASE("limits: a picture of more transparent surfaces than its pixels may have is refused, whatever threads and tiles", "[raster][blend]") {
     // Panes over the whole picture, and one over its left half.
-    constexpr int kPanes = 9, kSide = 96;
+    constexpr int kPanes = 9, kSide = 512;
     Scene scene;
     Material pane;
     pane.alpha_mode = AlphaMode::blend;
@@ -208,7 +208,7 @@ TEST_CASE("limits: a picture of more transparent surfaces than its pixels may ha
     scene.instances.push_back({0, {}});
     Bytes expected;
     for (const int threads : {1, 3})
-        for (const int tile : {64, 16})
+        for (const int tile : {64, 32})
             for (const int limit : {kPanes, kPanes + 1, 0}) {
                 Settings settings;
                 settings.max_layers = limit;

@@ -99,8 +99,8 @@ class PictureOptions(ViewOptions, total=False):
         hidden_edges: edges behind surfaces: "none", "dashed" (none)
         edge_angle_deg: between the normals of two triangles, from which on their edge is a line: 0 to 180 (30)
         edge_width: of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)
-        max_layers: transparent surfaces on each pixel, in the mean over all pixels of the picture, 1 to 2^20; more end the call
-            with a limit's error: a small file can ask for millions. 0: no limit (128)
+        max_layers: transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1
+            to 2^20; more end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)

@@ -623,8 +623,8 @@ typedef struct halflit_settings {
     float edge_width;
     /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)
     float edge_color[3];
-    /// transparent surfaces on each pixel, in the mean over all pixels of the picture, 1 to 2^20; more end the call with a limit's
-    /// error: a small file can ask for millions. 0: no limit (128)
+    /// transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1 to 2^20; more
+    /// end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
     int32_t max_layers;
     int32_t reserved[1];  ///< 0
 } halflit_settings;
