@@ -48,8 +48,8 @@ private:
 /// True if this thread's limit is over or its work is cancelled.
 [[nodiscard]] HALFLIT_API bool time_is_over();
 
-/// Throws OutOfTime if this thread's limit is over or its work is cancelled. Takes about 30 ns with a limit, 2 ns without, and the time of the
-/// caller's function.
+/// Throws OutOfTime if this thread's limit is over or its work is cancelled. Takes about 30 ns with a limit, 2 ns without, and the time of
+/// the caller's function.
 HALFLIT_API void check_time();
 
 /// Asks for the time once in 65,536 calls. For loops whose steps take nanoseconds.

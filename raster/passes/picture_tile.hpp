@@ -42,7 +42,7 @@ struct PicturePass {
     const TilePass* surface;            ///< reads what the planes of surfaces need; null: there are none
     Region written;                     ///< pixels of the output; the picture's region may be larger
     LayerBudget& layers;
-    const PixelMask* only = nullptr;    ///< if there is one, other pixels are not shaded, and what is written there has no meaning
+    const PixelMask* only = nullptr;  ///< if there is one, other pixels are not shaded, and what is written there has no meaning
 };
 
 class PictureTile {

@@ -6,7 +6,8 @@
 //
 // Views of many vertices are transformed and binned in batches, from draw to draw, and keep only the vertices that their triangles use
 // (used_vertices.hpp): an instance takes some bytes of a file and could take megabytes of memory. Whenever the triangles of the batches
-// take more than a budget, those that no sample shows are dropped (hidden_triangles.cpp): the opaque ones that stay are no more than there are samples.
+// take more than a budget, those that no sample shows are dropped (hidden_triangles.cpp): the opaque ones that stay are no more than there
+// are samples.
 #pragma once
 
 #include "halflit/material.hpp"
@@ -94,7 +95,7 @@ struct Chunk {
     UsedVertices used;             ///< only while a view is made in batches
     MemoryShare memory;
 
-    [[nodiscard]] std::size_t bytes() const;  ///< memory of all lists
+    [[nodiscard]] std::size_t bytes() const;       ///< memory of all lists
     [[nodiscard]] std::size_t bytes_used() const;  ///< the same without what they hold in reserve
     void drop_lists();
     /// Only if `listed`.

@@ -151,7 +151,7 @@ TEST_CASE("batches: with little memory hidden triangles are dropped on the way, 
     for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
         Random random(seed + 4321);
         Shot shot = any_shot(seed);
-        shot.scene.instances.clear();  // its materials and lights are enough
+        shot.scene.instances.clear();                           // its materials and lights are enough
         shot.settings.region = {}, shot.settings.samples = 16;  // so that small triangles are kept
         add_odd_things(random, shot);
         add_balls(random, shot.scene, 1600);

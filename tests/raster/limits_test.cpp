@@ -187,7 +187,8 @@ TEST_CASE("limits: copies of an opaque triangle are drawn once, and those that b
     CHECK(one == many);
 }
 
-TEST_CASE("limits: a picture of more transparent surfaces than its pixels may have is refused, whatever threads and tiles", "[raster][blend]") {
+TEST_CASE("limits: a picture of more transparent surfaces than its pixels may have is refused, whatever threads and tiles",
+          "[raster][blend]") {
     // Panes over the whole picture, and one over its left half.
     constexpr int kPanes = 9, kSide = 512;
     Scene scene;

@@ -67,7 +67,7 @@ struct Settings {
     /// transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1 to 2^20; more end the
     /// call with a limit's error: a small file can ask for millions. 0: no limit
     int max_layers = 128;
-    bool shadow_terminator_offset = false;         ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
+    bool shadow_terminator_offset = false;  ///< look-ups on the smooth surface given by the vertex normals, for coarse meshes
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 
