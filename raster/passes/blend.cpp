@@ -71,7 +71,9 @@ void PictureTile::blend_layers() {
 
 void PictureTile::blend_layers(const TileRect& part) {
     if (collect_layers(part)) {
-        pass_.layers.take(scratch_.layers->fragments.size() * static_cast<std::size_t>(samples_));
+        std::size_t samples = 0;
+        for (const Fragment& fragment : scratch_.layers->fragments) samples += static_cast<std::size_t>(std::popcount(fragment.samples));
+        pass_.layers.take(samples);
         shade_layers();
         blend_pixels(part);
         return;

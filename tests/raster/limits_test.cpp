@@ -207,12 +207,13 @@ TEST_CASE("limits: a picture of more transparent surfaces than its pixels may ha
     add(0, 0.9f);
     scene.meshes.push_back(std::move(mesh));
     scene.instances.push_back({0, {}});
-    Bytes expected;
+    Bytes expected[2];
     for (const int threads : {1, 3})
         for (const int tile : {64, 32})
             for (const int limit : {kPanes, kPanes + 1, 0}) {
                 Settings settings;
                 settings.max_layers = limit;
+                settings.samples = tile == 64 ? 4 : 1;  // a pixel between two triangles of a pane has it once
                 Bytes pixels(std::size_t{4} * kSide * kSide);
                 Renderer renderer;
                 const auto report = renderer.render(scene, front(), settings, {.width = kSide, .height = kSide, .pixels = pixels.data()},
@@ -224,7 +225,7 @@ TEST_CASE("limits: a picture of more transparent surfaces than its pixels may ha
                     CHECK(report.error().message.find("transparent surfaces") != std::string::npos);
                     continue;
                 }
-                if (expected.empty()) expected = pixels;
-                CHECK(pixels == expected);
+                if (expected[settings.samples == 4].empty()) expected[settings.samples == 4] = pixels;
+                CHECK(pixels == expected[settings.samples == 4]);
             }
 }

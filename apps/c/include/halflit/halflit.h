@@ -51,9 +51,9 @@ enum {
 /// next call that fails.
 HALFLIT_C_API const char* halflit_last_error(void);
 /// stops: 1: SIGINT, as Ctrl-C sends it, ends this thread's later calls with HALFLIT_ERROR_CANCELLED, after the process's own handler has
-/// run; 0: it does not (default). For calls that take long: those that load, take meshes or choose a picture end within half a second. A scene that
-/// was being changed is as after a lack of memory: sound, but without all or a part of the change. See halflit_execution.stop_at_interrupt
-/// for frames.
+/// run; 0: it does not (default). For calls that take long: those that load, take meshes or choose a picture end within half a second. A
+/// scene that was being changed is as after a lack of memory: sound, but without all or a part of the change. See
+/// halflit_execution.stop_at_interrupt for frames.
 HALFLIT_C_API void halflit_stop_at_interrupt(int32_t stops);
 
 // ---- scenes and files --------------------------------------------------------------------------------------------------
