@@ -139,7 +139,13 @@ async function loaded(model, environment, { own, passed }) {
   if (own.scalar) await init({ simd: false });
   const built_in = is_built_in(model), piped = model === "-", options = { name: piped ? "standard input" : model, flags: passed };
   if (!built_in && !piped) options.files = files_beside(model, own["allow-external"] ?? []);
-  if (environment) options.env = read(environment);
+  if (environment) {
+    try {
+      options.env = read(environment);
+    } catch (error) {
+      throw Object.assign(error, { message: `--env: ${error.message}; expected a picture of floats (.hdr, .exr, .pfm), sky or studio` });
+    }
+  }
   return load(built_in ? model : piped ? standard_input() : read(model), options);
 }
 
@@ -180,7 +186,8 @@ async function main(words) {
   try {
     await (line.command === "info" ? describe(line, model, environment) : draw(line, model, environment));
   } catch (error) {
-    const code = Number.isInteger(error.code) ? error.code : kFile, told = String(error.message).replace(/^environment \d+/, (name) => environment ?? name);
+    const code = Number.isInteger(error.code) ? error.code : kFile;
+    const told = String(error.message).replace(/^(env: )?environment \d+/, (name) => (environment ? `--env: ${environment}` : name));
     const of_value = code === kUsage && line.passed.some((flag) => told.startsWith(`${flag}: expected`)) && !told.includes("; see halflit");
     const message = of_value ? `${told}; see halflit ${line.command} --help` : told;
     const head = { schema: "halflit.report/1", status: "error", halflit: version, pixel_epoch: pixelEpoch };

@@ -114,9 +114,14 @@ function call(core, work) {
   }
 }
 
+function out_of_memory(core) {
+  core.full = true;
+  return new HalflitError("out of memory", kLimit);
+}
+
 function allocated(core, size) {
   const place = core._halflit_allocate(size || 1);
-  if (!place) throw new HalflitError("out of memory", kLimit);
+  if (!place) throw out_of_memory(core);
   return place;
 }
 
@@ -218,7 +223,7 @@ async function bytes_of(given) {
 
 function add_file(core, handle, name, bytes, of_scene) {
   const place = with_text(core, name, (text) => core._halflit_add_file(handle, text, bytes.length, of_scene ? 1 : 0));
-  if (!place && bytes.length > 0) throw new HalflitError("out of memory", kLimit);
+  if (!place && bytes.length > 0) throw out_of_memory(core);
   core.HEAPU8.set(bytes, place);
 }
 
