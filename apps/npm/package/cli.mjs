@@ -1,13 +1,15 @@
 #!/usr/bin/env node
 // halflit MODEL [PICTURE] [FLAGS] and halflit info MODEL [FLAGS]: the program's `render` and `info`, by the module.
-import { accessSync, constants, existsSync, readFileSync, readSync, realpathSync, statSync, writeFileSync, writeSync } from "node:fs";
+import { accessSync, closeSync, constants, existsSync, openSync, readFileSync, readSync, realpathSync, statSync, writeFileSync, writeSync } from "node:fs";
 import { basename, dirname, isAbsolute, relative, resolve } from "node:path";
 import { isatty } from "node:tty";
-import { is_built_in, parse, table_of } from "./command_line.mjs";
+import { parse, table_of } from "./command_line.mjs";
+import { any_of, is_built_in, kFormats } from "./engine.js";
 import { HalflitError, init, load, pixelEpoch, version } from "./node.js";
 
 const kUsage = 2, kFile = 4;  // exit codes
-const kModels = /\.(glb|gltf|stl|ply|obj|off|3mf)$/i, kPictures = /\.(png|jpe?g|bmp|tga)$/i, kNamedSkies = ["sky", "studio", "none"];
+const kModels = /\.(glb|gltf|stl|ply|obj|off|3mf)$/i, kPictures = new RegExp(`\\.(${kFormats.join("|")}|jpeg)$`, "i");
+const kNamedSkies = ["sky", "studio", "none"];
 const usage = (message) => new HalflitError(message, kUsage);
 const json_of = (report) => `${JSON.stringify(report, null, 2)}\n`;
 
@@ -110,19 +112,29 @@ function outputs_of(scene, words, own) {
     output = places.pop();
   }
   if (places.length > 1)
-    throw usage(`unexpected argument ${places[1]}: expected one scene and a .png, .jpg, .bmp or .tga file; see halflit render --help`);
+    throw usage(`unexpected argument ${places[1]}: expected one scene and a ${any_of(kFormats, ".")} file; see halflit render --help`);
   const { format } = own, report = own.report;
-  if (format && !/^(png|jpg|bmp|tga)$/.test(format))
-    throw usage(`--format: expected png, jpg, bmp or tga, found '${format}'; see halflit render --help`);
+  if (format && !kFormats.includes(format))
+    throw usage(`--format: expected ${any_of(kFormats)}, found '${format}'; see halflit render --help`);
   const stem = basename(scene ?? "").replace(/\.[^.]*$/, "").split(":")[0];
   output ??= `${scene === "-" || !stem ? "halflit" : stem}.${format ?? "png"}`;
   if (output.endsWith("/") || output.includes("{"))
     throw usage(`-o ${output}: expected the name of one picture; the program alone draws many`);
   if (is_folder(output)) throw new HalflitError(`${output}: Is a directory`, kFile);
-  if (!format && output !== "-" && !kPictures.test(output)) throw usage(`${output}: expected .png, .jpg, .bmp or .tga`);
+  if (!format && output !== "-" && !kPictures.test(output)) throw usage(`${output}: expected ${any_of(kFormats, ".")}`);
   if (report && (report === output || same_file(report, output)))
     throw usage(`--report: expected another file than the picture's, found '${report}'`);
   return { output, report, format: format ?? (output === "-" ? "png" : /\.([^.]+)$/.exec(output)[1].toLowerCase()) };
+}
+
+function first_byte(path) {
+  const file = openSync(path), byte = Buffer.alloc(1);
+  try {
+    readSync(file, byte);
+  } finally {
+    closeSync(file);
+  }
+  return byte.toString("latin1");
 }
 
 function spare({ output, report }, inputs) {
@@ -130,7 +142,7 @@ function spare({ output, report }, inputs) {
     for (const [input, what] of inputs)
       if (path && input && same_file(path, input)) throw new HalflitError(`${path}: is ${what} itself and is not overwritten`, kFile);
   const earlier = report && report !== "-" ? statSync(report, { throwIfNoEntry: false }) : null;
-  if (earlier?.isFile() && earlier.size > 0 && readFileSync(report, "latin1")[0] !== "{")
+  if (earlier?.isFile() && earlier.size > 0 && on_file(report, () => first_byte(report)) !== "{")
     throw usage(`--report: expected a new file or an earlier report, found '${report}', which is neither`);
 }
 

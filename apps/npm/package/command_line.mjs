@@ -1,11 +1,11 @@
 // The words of a command line by the program's rules: command, scenes and pictures, flags with their values.
-import { HalflitError } from "./engine.js";
+import { HalflitError, any_of, kFormats } from "./engine.js";
 import { flags } from "./tables.js";
 
 export const kProgramFlags = [
   ...[
-    { names: ["-o", "--output"], form: "FILE", help: "A .png, .jpg, .bmp or .tga file; - for standard output (default: SCENE's name.png)" },
-    { names: ["--format"], form: "png|jpg|bmp|tga", help: "Format of the picture, whatever its name" },
+    { names: ["-o", "--output"], form: "FILE", help: `A ${any_of(kFormats, ".")} file; - for standard output (default: SCENE's name.png)` },
+    { names: ["--format"], form: kFormats.join("|"), help: "Format of the picture, whatever its name" },
     { names: ["--report"], form: "FILE.json|-", help: "Write size, hash, times and counts as JSON; on failure, the error" },
   ].map((flag) => ({ ...flag, group: "Output", only: "render" })),
   ...[
@@ -21,7 +21,6 @@ const kCommands = ["render", "info"];
 const kYes = /^(true|on|yes|enable|t|y|\+|1)$/i, kNo = /^(false|off|no|disable|n|f|-|0)$/i;
 const usage = (message) => new HalflitError(message, 2);
 
-export const is_built_in = (word) => /^(demo$|sphere:|lights:)/.test(word);
 export const table_of = (command) => [...kProgramFlags.filter((flag) => (flag.only ?? command) === command), ...flags];
 
 // An empty argument comes from a variable that is not set.

@@ -6,7 +6,12 @@ import { flags, pixelEpoch, version } from "./tables.js";
 const kSimdProbe = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
 const kRounds = 16;  // of files that name other files
 const kUsage = 2, kDamaged = 3, kFile = 4, kLimit = 5;  // exit codes of the program
-const kEncodings = ["png", "jpg", "jpeg", "bmp", "tga"];
+export const kFormats = ["png", "jpg", "bmp", "tga"];  // of pictures that are written; "jpeg" is "jpg"
+// "a, b or c". before, after: of each word.
+export const any_of = (words, before = "", after = "") => {
+  const each = words.map((word) => before + word + after);
+  return `${each.slice(0, -1).join(", ")} or ${each[each.length - 1]}`;
+};
 const text_bytes = new TextEncoder();
 
 export class HalflitError extends Error {
@@ -240,7 +245,8 @@ export class Picture {
     this.hash = this.report.pixel_hash;
   }
   encode(format) {
-    if (!kEncodings.includes(format)) throw usage(`encode: expected "png", "jpg", "bmp" or "tga", found ${JSON.stringify(format)}`);
+    if (![...kFormats, "jpeg"].includes(format))
+      throw usage(`encode: expected ${any_of(kFormats, '"', '"')}, found ${JSON.stringify(format)}`);
     const { width, height, pixels } = this, expected = 4 * width * height;  // all may have been changed, or sent to another thread
     if (![width, height].every((side) => Number.isInteger(side) && side > 0))
       throw usage(`picture: expected a size, found ${width} x ${height}`);
@@ -267,7 +273,7 @@ const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new Fina
   if (!core.ended) core._halflit_close(handle);
 });
 
-const kBuiltIn = /^(demo$|sphere:|lights:)/;
+export const is_built_in = (scene) => /^(demo$|sphere:|lights:)/.test(scene);
 
 export class Scene {
   #core; #handle; #defaults; #resolve = null; #asked = new Set(); #environment = null; #environments = 0;
@@ -282,7 +288,7 @@ export class Scene {
 
   static async open(source, options) {
     const built_in = typeof source === "string";
-    if (built_in && !kBuiltIn.test(source)) {
+    if (built_in && !is_built_in(source)) {
       const name = JSON.stringify(source);
       throw usage(`${name}: expected the bytes of a model, or "demo", "sphere:N" or "lights:N"; ${read_as(name)}`);
     }
