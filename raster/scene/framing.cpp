@@ -280,8 +280,8 @@ public:
     FramedPoints(const Scene& scene, const Bounds& bounds) : scene_(&scene), part_(framed_part(scene)) {
         const Bounds& framed = part_.whole ? bounds : part_.bounds;
         box_ = usable_box(framed);
-        measure_balls();
         by_box_ = framed.empty || !(framed.radius() > 1e-5 * length(box_.center)) || !(framed.radius() < kMaxCoordinate);
+        if (!by_box_) measure_balls();
     }
     explicit FramedPoints(const Bounds& bounds) : box_(usable_box(bounds)) {}
 
