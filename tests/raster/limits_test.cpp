@@ -130,7 +130,7 @@ TEST_CASE("limits: triangles that touch hundreds of tiles each are drawn without
         CHECK(pixels == expected);
     }
     // 12 bytes for each entry: a spoke touches some 500 of the 128 x 128 tiles.
-    const Scene many = spokes(50000);
+    const Scene many = spokes(15000);
     Renderer renderer;
     Bytes pixels;
     REQUIRE(draw(renderer, many, pixels, 2048, {.tile_size = 16, .memory_limit = 64'000'000}));

@@ -153,7 +153,7 @@ TEST_CASE("prepared scene: bounds are those of scene_bounds where float32 has fe
     // Below 1e-38 the rounding error is no longer proportional to the coordinate. The mesh is a grid, so that neighbouring clusters reach
     // nearly as far out.
     Random random(2);
-    for (int round = 0; round < 2500; ++round) {
+    for (int round = 0; round < 800; ++round) {
         Scene scene;
         scene.meshes.push_back(make_plane(1, static_cast<int>(random.integer(30, 60))));
         const Vec3f offset = random_point(random, 1);
