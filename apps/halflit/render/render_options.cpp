@@ -198,7 +198,7 @@ FlagGroup section_flags(RenderOptions& o) {
             {{.names = "--section",
               .form = "AXIS=POS|A,B,C,D",
               .help = "Cut the scene: x=0.5 keeps what is below 0.5 on the x axis, -x=0.5 what is above, x=50% is the middle of the scene, "
-                      "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as `info` gives them. Closed objects get caps, "
+                      "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as in the measures of `info`. Closed objects get caps, "
                       "whose areas go into the report",
               .read = [&o](const std::string& text) -> Result<void> {
                   auto section = parse_section(text);
