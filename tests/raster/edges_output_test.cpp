@@ -274,6 +274,6 @@ TEST_CASE("edges: a hundred thousand triangles along one edge, or at one place, 
         const auto begin = std::chrono::steady_clock::now();
         drawn(scene, with_lines());
         // 0.7 s on one core; 10^10 steps take minutes
-        CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 15.0);
+        CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 60.0);
     }
 }
