@@ -471,6 +471,10 @@ class Parts(unittest.TestCase):
             halflit.render(b"glTF and then nothing")
         with self.assertRaisesRegex(TypeError, "sampels.*did you mean 'samples'"):
             halflit.render("demo", sampels=4)
+        with self.assertRaisesRegex(TypeError, r"'width', the picture's is size=\(width, height\)"):
+            halflit.render("demo", width=4)
+        with self.assertRaisesRegex(TypeError, r"'up', it is one of Scene\(\)"):
+            halflit.render("demo", up="z")
         for name in ("lenien", "time_s", "size", "reserved", "allow_external_count"):
             with self.assertRaisesRegex(TypeError, f"has no keyword '{name}'"):
                 halflit.Scene.load(box(), **{name: 1})

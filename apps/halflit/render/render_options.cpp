@@ -194,23 +194,24 @@ FlagGroup pose_flags(RenderOptions& o) {
 }
 
 FlagGroup section_flags(RenderOptions& o) {
-    return {"Section",
-            {{.names = "--section",
-              .form = "AXIS=POS|A,B,C,D",
-              .help = "Cut the scene: x=0.5 keeps what is below 0.5 on the x axis, -x=0.5 what is above, x=50% is the middle of the scene, "
-                      "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as in the measures of `info`. Closed objects get caps, "
-                      "whose areas go into the report",
-              .read = [&o](const std::string& text) -> Result<void> {
-                  auto section = parse_section(text);
-                  if (!section) return tl::unexpected(section.error());
-                  o.sections.push_back(std::move(*section));
-                  return {};
-              },
-              .repeated = true},
-             {"--section-hatch", form_of(kOffOn), fmt::format("Draw lines on the caps (default {})", name_of(o.hatch, kOffOn)),
-              named(o.hatch, kOffOn)},
-             {"--section-spacing", "N", "Distance between these lines, in the scene's units (default: a fortieth of the scene's diagonal)",
-              number(o.hatch_spacing, 0.0f, std::numeric_limits<float>::max())}}};
+    return {
+        "Section",
+        {{.names = "--section",
+          .form = "AXIS=POS|A,B,C,D",
+          .help = "Cut the scene: x=0.5 keeps what is below 0.5 on the x axis, -x=0.5 what is above, x=50% is the middle of the scene, "
+                  "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as in the measures of `info`. Closed objects get caps, "
+                  "whose areas go into the report",
+          .read = [&o](const std::string& text) -> Result<void> {
+              auto section = parse_section(text);
+              if (!section) return tl::unexpected(section.error());
+              o.sections.push_back(std::move(*section));
+              return {};
+          },
+          .repeated = true},
+         {"--section-hatch", form_of(kOffOn), fmt::format("Draw lines on the caps (default {})", name_of(o.hatch, kOffOn)),
+          named(o.hatch, kOffOn)},
+         {"--section-spacing", "N", "Distance between these lines, in the scene's units (default: a fortieth of the scene's diagonal)",
+          number(o.hatch_spacing, 0.0f, std::numeric_limits<float>::max())}}};
 }
 
 Result<void> read_light(std::vector<GivenLight>& lights, const std::string& text) {

@@ -77,6 +77,11 @@ _PARTS = {
     "edges": ("edge_color", "hidden_edges", "edge_angle_deg", "edge_width"),
     "shadows": ("shadow_size", "soft_shadow_maps", "shadow_fade", "sky_shadows", "shadow_terminator_offset", "shadow_memory_limit"),
 }
+#: Keywords that have another place here.
+_ELSEWHERE = {
+    **dict.fromkeys(("width", "height", "resolution"), "the picture's is size=(width, height)"),
+    "up": "it is one of Scene()",
+}
 KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "edge_color", "lobe"))
 
 
@@ -87,7 +92,8 @@ def check_names(options: Iterable[str], known: Iterable[str] = KNOWN, function: 
             import difflib  # takes a tenth of halflit's own import
 
             near = difflib.get_close_matches(name, sorted(known), 1)
-            raise TypeError(f"{function}() has no keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
+            hint = _ELSEWHERE.get(name) or (f"did you mean {near[0]!r}?" if near else "")
+            raise TypeError(f"{function}() has no keyword {name!r}" + (f", {hint}" if hint else ""))
 
 
 def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
