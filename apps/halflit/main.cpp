@@ -8,10 +8,9 @@
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/terminal.hpp"
 #include "apps/halflit/render/scene_source.hpp"
+#include "apps/io/platform/process.hpp"
+#include "apps/io/platform/streams.hpp"
 #include "halflit/version.hpp"
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -24,14 +23,6 @@ namespace {
 
 using namespace halflit;
 using namespace halflit::cli;
-
-/// Opens /dev/null for each closed standard stream. Otherwise the next file opened would get that stream's number, and messages would be
-/// written into it.
-void occupy_standard_streams() {
-    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        // Opened for the opposite direction, so that reading from or writing to the closed stream stays an error.
-        if (::fcntl(fd, F_GETFD) == -1) (void)::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-}
 
 int run(const Command& command) {
     try {
@@ -73,8 +64,8 @@ bool means_render(std::span<const Command> commands, const std::vector<std::stri
 
 int parse_and_run(int argc, char** argv) {
     const std::vector<Command> commands = all_commands();
-    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
-    if (arguments.empty() && ::isatty(STDOUT_FILENO) == 1) return print(program_help(commands, help_width()));
+    std::vector<std::string> arguments = platform::arguments(argc, argv);
+    if (arguments.empty() && platform::is_terminal(platform::Stream::output)) return print(program_help(commands, help_width()));
     if (means_render(commands, arguments)) arguments.insert(arguments.begin(), commands[0].name);
     const auto line = parse_command_line(commands, std::move(arguments));
     if (!line) {
@@ -113,7 +104,7 @@ void free_last_memory() {
 int main(int argc, char** argv) {
     last_memory = std::malloc(std::size_t{1} << 20);
     std::set_new_handler(free_last_memory);
-    occupy_standard_streams();
+    platform::prepare_streams();
     try {
         handle_signals();
         return parse_and_run(argc, argv);

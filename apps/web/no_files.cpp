@@ -2,6 +2,29 @@
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/render/camera_file.hpp"
 #include "apps/halflit/render/scene_source.hpp"
+#include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/files.hpp"
+#include "apps/io/platform/process.hpp"
+#include "apps/io/platform/streams.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+namespace halflit::io {
+
+std::string errno_text(int error) { return std::strerror(error); }
+
+}  // namespace halflit::io
+
+namespace halflit::platform {
+
+std::size_t last_separator(std::string_view path) { return path.rfind('/'); }
+
+bool is_terminal(Stream /*stream*/) { return false; }
+
+int limit_memory(std::size_t /*bytes*/) { return ENOSYS; }
+
+}  // namespace halflit::platform
 
 namespace halflit::cli {
 

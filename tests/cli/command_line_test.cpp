@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
+#include "tests/support/skip.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -156,6 +157,7 @@ TEST_CASE("camera: a scene turned with its camera and lights gives the same pict
 }
 
 TEST_CASE("terminal: errors are coloured there and nowhere else, unless NO_COLOR is set", "[cli][terminal]") {
+    if (!abilities().terminals) HALFLIT_SKIP("no terminal without a screen here");
     const std::string red = "halflit: \x1b[1;31merror\x1b[0m: ";
     CHECK(run({"rendr"}, {.terminal_columns = 80}).out.starts_with(red));
     CHECK(run({"rendr"}, {.environment = {{"NO_COLOR", "1"}}, .terminal_columns = 80}).out.starts_with("halflit: error: "));
@@ -164,12 +166,14 @@ TEST_CASE("terminal: errors are coloured there and nowhere else, unless NO_COLOR
 }
 
 TEST_CASE("terminal: the program alone prints its help there", "[cli][terminal]") {
+    if (!abilities().terminals) HALFLIT_SKIP("no terminal without a screen here");
     const Outcome outcome = run({}, {.terminal_columns = 80});
     CHECK(outcome.code == 0);
     CHECK(contains(outcome.out, "Usage: halflit SCENE"));
 }
 
 TEST_CASE("terminal: a short run shows no progress, and a quiet one none at all", "[cli][terminal]") {
+    if (!abilities().terminals) HALFLIT_SKIP("no terminal without a screen here");
     const TemporaryFolder folder;
     CHECK(!contains(run({"sphere:500", folder.file("a.png"), "--size", "16"}, {.terminal_columns = 80}).out, "%"));
     // 4 million pixels of 8 samples by the scalar kernels take seconds.

@@ -179,7 +179,7 @@ TEST_CASE("golden: a wrong list ends with 3, and one line that names the place",
 TEST_CASE("golden: scenes do not reach files outside the folder, and one that fails does not hide the others", "[cli][golden]") {
     const TemporaryFolder outside, folder;
     write_contents(outside.file("out.gltf"), triangle());
-    std::filesystem::create_directory_symlink(outside.path(), folder.file("link"));
+    const bool has_link = make_link(outside.path(), folder.file("link"));  // where the system makes none, the name leads nowhere
     write_list(folder, {scene("up", "../" + std::filesystem::path(outside.path()).filename().string() + "/out.gltf", {}),
                         scene("absolute", outside.file("out.gltf"), {}), scene("link", "link/out.gltf", {}),
                         scene("env", "demo", {"--env", outside.file("out.gltf")}), scene("more", "demo", {"--allow-external", ".."}),
@@ -193,7 +193,9 @@ TEST_CASE("golden: scenes do not reach files outside the folder, and one that fa
         CHECK(found[i].second == "failed");
     }
     CHECK(found[7].second == "missing");
-    CHECK(folder.names() == std::vector<std::string>{"golden.json", "good.png", "hashes.txt", "link"});
+    std::vector<std::string> names{"golden.json", "good.png", "hashes.txt"};
+    if (has_link) names.emplace_back("link");
+    CHECK(folder.names() == names);
     CHECK(run({"golden", "check", folder.path(), "good"}).code == 0);
     const Outcome junit = run({"golden", "check", folder.path(), "--junit", folder.file("j.xml")});
     CHECK(junit.code == 3);

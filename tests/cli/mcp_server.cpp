@@ -4,13 +4,7 @@
 #include "tests/fuzz/base64.hpp"
 #include "tests/support/catch.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
-#include <cstring>
 
 namespace halflit::test {
 namespace {
@@ -21,56 +15,21 @@ using nlohmann::json;
 constexpr std::array<std::array<unsigned, 3>, 12> kBox{
     {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}}};
 
-}  // namespace
-
-McpServer::McpServer(const std::string& root, const std::vector<std::string>& flags) {
-    int to_child[2], from_child[2];
-    REQUIRE(::pipe2(to_child, O_CLOEXEC) == 0);
-    REQUIRE(::pipe2(from_child, O_CLOEXEC) == 0);
+std::vector<std::string> words_of(const std::string& root, const std::vector<std::string>& flags) {
     std::vector<std::string> words{HALFLIT_PROGRAM, "mcp", "--root", root};
     words.insert(words.end(), flags.begin(), flags.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    child_ = ::fork();
-    REQUIRE(child_ >= 0);
-    if (child_ == 0) {
-        ::dup2(to_child[0], 0);
-        ::dup2(from_child[1], 1);
-        ::dup2(::open("/dev/null", O_WRONLY), 2);
-        ::execv(argv[0], argv.data());
-        ::_exit(126);
-    }
-    ::close(to_child[0]);
-    ::close(from_child[1]);
-    input_ = to_child[1], output_ = from_child[0];
+    return words;
 }
 
-McpServer::~McpServer() {
-    if (child_ > 0) (void)end();
-    ::close(output_);
-}
+}  // namespace
 
-void McpServer::send(const std::string& line) const {
-    const std::string text = line + "\n";
-    for (std::size_t sent = 0; sent < text.size();) {
-        const ssize_t done = ::write(input_, text.data() + sent, text.size() - sent);
-        REQUIRE(done > 0);
-        sent += static_cast<std::size_t>(done);
-    }
-}
+McpServer::McpServer(const std::string& root, const std::vector<std::string>& flags) : program_(words_of(root, flags)) {}
+
+void McpServer::send(const std::string& line) const { program_.write(line + "\n"); }
 
 json McpServer::read() {
-    constexpr int kPatienceMs = 120'000;
     std::size_t end = 0;
-    while ((end = unread_.find('\n')) == std::string::npos) {
-        pollfd ready{output_, POLLIN, 0};
-        REQUIRE(::poll(&ready, 1, kPatienceMs) == 1);
-        std::array<char, 65536> part;
-        const ssize_t got = ::read(output_, part.data(), part.size());
-        REQUIRE(got > 0);
-        unread_.append(part.data(), static_cast<std::size_t>(got));
-    }
+    while ((end = unread_.find('\n')) == std::string::npos) unread_ += program_.read();
     const json message = json::parse(unread_.substr(0, end));
     unread_.erase(0, end + 1);
     return message;
@@ -95,13 +54,7 @@ json McpServer::call(const std::string& tool, const json& arguments) {
     return answer["result"];
 }
 
-int McpServer::end() {
-    ::close(input_);
-    int status = 0;
-    ::waitpid(child_, &status, 0);
-    child_ = -1;
-    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-}
+int McpServer::end() { return program_.end(); }
 
 std::optional<std::string> id_of_answer(const std::string& line) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) return std::nullopt;

@@ -3,8 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <map>
 #include <optional>
@@ -19,9 +17,6 @@ namespace halflit::test {
 class McpServer {
 public:
     explicit McpServer(const std::string& root, const std::vector<std::string>& flags = {});
-    ~McpServer();
-    McpServer(const McpServer&) = delete;
-    McpServer& operator=(const McpServer&) = delete;
 
     void send(const std::string& line) const;
     /// The next line. Fails the test if none comes for two minutes.
@@ -36,8 +31,7 @@ public:
     int end();
 
 private:
-    pid_t child_ = -1;
-    int input_ = -1, output_ = -1;
+    PipedProgram program_;
     int next_id_ = 1;
     std::string unread_;
 };

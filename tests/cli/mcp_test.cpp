@@ -5,9 +5,6 @@
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -310,11 +307,9 @@ TEST_CASE("mcp: paths that leave the root are refused, also by symbolic links", 
     const TemporaryFolder outside;
     write_contents(outside.file("secret.stl"), box_stl(1, 1, 1));
     const TemporaryFolder& folder = models.folder;
-    std::filesystem::create_symlink(outside.file("secret.stl"), folder.file("link.stl"));
-    std::filesystem::create_directory_symlink(outside.path(), folder.file("door"));
-    std::filesystem::create_symlink(outside.file("new.png"), folder.file("new.png"));
-    std::filesystem::create_symlink("box.stl", folder.file("inside.stl"));
-    REQUIRE(::mkfifo(folder.file("pipe.stl").c_str(), 0600) == 0);
+    const bool links = make_link(outside.file("secret.stl"), folder.file("link.stl")) && make_link(outside.path(), folder.file("door")) &&
+                       make_link(outside.file("new.png"), folder.file("new.png")) && make_link("box.stl", folder.file("inside.stl"));
+    (void)make_pipe(folder.file("pipe.stl"));
     const std::string name = std::filesystem::path(outside.path()).filename().string();
     McpServer server(folder.path());
     for (const std::string& path :
@@ -325,11 +320,12 @@ TEST_CASE("mcp: paths that leave the root are refused, also by symbolic links", 
         CHECK(server.call("render", arguments_of("box.stl", {{"env", path}, {"size", "16"}}))["isError"] == true);
     }
     CHECK(contains(text_of(server.call("info", arguments_of("bxo.stl"))), "did you mean box.stl?"));
-    CHECK(server.call("info", arguments_of("inside.stl"))["isError"] == false);
+    if (links) CHECK(server.call("info", arguments_of("inside.stl"))["isError"] == false);
     CHECK(server.call("info", arguments_of(folder.file("box.stl")))["isError"] == false);
     for (const std::string& path :
          std::vector<std::string>{"../" + name + "/a.png", "door/a.png", "new.png", "box.stl", "a.txt", "a.exr", "no/a.png"}) {
         INFO(path);
+        if (path == "new.png" && !links) continue;
         for (const std::string tool : {"look", "render"})
             CHECK(server.call(tool, arguments_of("box.stl", {{"output", path}, {"size", "16"}}))["isError"] == true);
     }
@@ -339,7 +335,7 @@ TEST_CASE("mcp: paths that leave the root are refused, also by symbolic links", 
     CHECK(same(picture_of(written), contents(folder.file("a.png"))));
 
     McpServer open(folder.path(), {"--allow-external"});
-    CHECK(open.call("info", arguments_of("link.stl"))["isError"] == false);
+    CHECK(open.call("info", arguments_of(links ? "link.stl" : outside.file("secret.stl")))["isError"] == false);
     CHECK(open.call("render", arguments_of("link.stl", {{"output", outside.file("a.png")}, {"size", "16"}}))["isError"] == true);
     CHECK(outside.names() == std::vector<std::string>{"secret.stl"});
 }

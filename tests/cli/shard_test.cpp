@@ -9,7 +9,6 @@
 
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -54,8 +53,8 @@ Outcome run_line(const TemporaryFolder& folder, const std::string& line) {
     const std::string log = folder.file("shell.log");
     const std::string command = fmt::format("cd '{}' && PATH='{}':$PATH && {} >'{}' 2>&1", folder.path(),
                                             std::filesystem::path(HALFLIT_PROGRAM).parent_path().string(), line, log);
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log), ""};
+    const int code = run_shell(command);
+    return {code, contents(log), ""};
 }
 
 }  // namespace
@@ -166,7 +165,7 @@ TEST_CASE("shards: a killed process leaves no half file, and its repetition make
         const Strings shard = with(film, {"--shard", fmt::format("{}/3", i)});
         const std::string first = folder.file(fmt::format("f/{:02}.png", i));
         (void)run(shard, {.folder = folder.path(), .signal = [&]() -> std::optional<int> {
-                              return std::filesystem::exists(first) ? std::optional(SIGKILL) : std::nullopt;
+                              return std::filesystem::exists(first) ? std::optional(kKill) : std::nullopt;
                           }});
         run_well(folder, with(shard, i == 1 ? Strings{"--skip-existing"} : Strings{}));
     }
@@ -245,6 +244,7 @@ TEST_CASE("merge: films of two scenes, or a frame twice, are refused", "[cli][sh
 }
 
 TEST_CASE("plan: the lines are commands that make the whole run", "[cli][shard]") {
+    if (!abilities().shell) HALFLIT_SKIP("no sh here");
     const TemporaryFolder folder;
     const std::string name = "it's $HOME.png";  // a shell must not read it
     const Outcome plan = run_in(folder, {"plan", "--shards", "3", "--", "render", "sphere:100", "--size", "24", "-o", name});
@@ -295,7 +295,7 @@ TEST_CASE("plan: a wrong command is told before it is started anywhere", "[cli][
 }
 
 TEST_CASE("plan: GNU parallel runs what it is given", "[cli][shard]") {
-    if (std::system("parallel --version >/dev/null 2>&1") != 0) HALFLIT_SKIP("GNU parallel is absent");
+    if (run_shell("parallel --version >/dev/null 2>&1") != 0) HALFLIT_SKIP("GNU parallel is absent");
     const TemporaryFolder folder;
     run_well(folder, with(kTurn, {"-o", "whole/{:02}.png"}));
     const std::string form = GENERATE("lines", "parallel");

@@ -4,6 +4,7 @@
 #include "tests/support/skip.hpp"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/system.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -83,8 +84,7 @@ TEST_CASE("PLY: vertices without faces are points, lit if they have normals", "[
 }
 
 TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
-    std::string name = (std::filesystem::temp_directory_path() / "halflit-test-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    const std::string name = new_folder().string();
     PngSpec spec;
     spec.width = spec.height = 2, spec.color_type = 2;
     const auto write_picture = [&](const char* file, auto sample) {

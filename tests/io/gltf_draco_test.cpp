@@ -325,6 +325,7 @@ TEST_CASE("draco: the sample box is the box that it was made from", "[io][assets
 #else
 
 TEST_CASE("draco: a build without Draco refuses a file that requires it by name", "[io]") {
+    if (io::has_draco()) HALFLIT_SKIP("built with Draco's decoder, without its encoder");
     TriangleFile file;
     file.rest = R"(,"extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"])";
     const auto loaded = load(file.file());

@@ -364,7 +364,7 @@ TEST_CASE("models: animated samples keep their size at three times, and posing t
     int animated = 0;
     for (const auto& entry : fs::recursive_directory_iterator(*assets / "models")) {
         if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb") continue;
-        auto loaded = load_gltf(entry.path(), at(0, "none", true));
+        auto loaded = load_gltf(entry.path().string(), at(0, "none", true));
         if (!loaded || loaded->animations.empty()) continue;
         INFO(entry.path());
         ++animated;
@@ -374,7 +374,7 @@ TEST_CASE("models: animated samples keep their size at three times, and posing t
         CHECK(end > 0.0);
         for (const double time : {0.0, 0.37 * end, 0.81 * end}) {
             REQUIRE(pose_at(*loaded->motion, "0", time, loaded->scene));
-            const auto anew = load_gltf(entry.path(), at(time));
+            const auto anew = load_gltf(entry.path().string(), at(time));
             REQUIRE(anew);
             CHECK(picture_of(loaded->scene, camera) == picture_of(anew->scene, camera));
             const Bounds posed = scene_bounds(loaded->scene);

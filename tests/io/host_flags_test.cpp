@@ -1,4 +1,5 @@
 // The floating-point environment and the compiler flags of a host change no pixel, from the file on.
+#include "apps/io/platform/process.hpp"
 #include "halflit/auto_setup.hpp"
 #include "halflit/image.hpp"
 #include "tests/io/host_picture.hpp"
@@ -6,8 +7,6 @@
 #include "tests/support/assets.hpp"
 
 #include "tests/support/catch.hpp"
-
-#include <unistd.h>
 
 #include <cfenv>
 #include <filesystem>
@@ -28,7 +27,7 @@ namespace {
 std::vector<std::string> models() {
     static const struct OwnFile {
         std::filesystem::path path = std::filesystem::temp_directory_path() /
-                                     ("halflit_host_flags_" + std::to_string(::getpid()) + ".glb");  // tests run side by side
+                                     ("halflit_host_flags_" + std::to_string(platform::process_id()) + ".glb");  // tests run side by side
         ~OwnFile() {
             std::error_code ignored;
             std::filesystem::remove(path, ignored);
@@ -48,6 +47,24 @@ std::vector<std::string> models() {
     }
     return paths;
 }
+
+/// The host's floating-point environment, whole: the C library of mingw-w64 leaves out the bits of flushed denormals.
+class SavedEnvironment {
+public:
+    SavedEnvironment() { std::fegetenv(&saved_); }
+    void put_back() const {
+        std::fesetenv(&saved_);
+#if defined(__SSE__)
+        _mm_setcsr(csr_);
+#endif
+    }
+
+private:
+    std::fenv_t saved_{};
+#if defined(__SSE__)
+    unsigned csr_ = _mm_getcsr();
+#endif
+};
 
 struct Mode {
     const char* name;
@@ -74,13 +91,12 @@ TEST_CASE("host: rounding modes and flushed denormals change no pixel, from the 
         drawn += expected != 0 ? 1 : 0;
         for (const Mode& mode : modes()) {
             INFO(mode.name);
-            std::fenv_t before;
-            std::fegetenv(&before);
+            const SavedEnvironment before;
             mode.set();
             const int rounding = std::fegetround();
             const std::uint64_t found = picture_of_usual_host(path);
             const int rounding_after = std::fegetround();
-            std::fesetenv(&before);
+            before.put_back();
             CHECK(found == expected);
             CHECK(rounding_after == rounding);
         }
@@ -93,11 +109,10 @@ TEST_CASE("host: an environment's picture is the same in every rounding mode", "
     const double expected = level();
     for (const Mode& mode : modes()) {
         INFO(mode.name);
-        std::fenv_t before;
-        std::fegetenv(&before);
+        const SavedEnvironment before;
         mode.set();
         const double found = level();
-        std::fesetenv(&before);
+        before.put_back();
         CHECK(found == expected);
     }
 }
@@ -106,11 +121,10 @@ TEST_CASE("host: the usual settings are the same in every rounding mode", "[io][
     const Settings expected = usual_settings();
     for (const Mode& mode : modes()) {
         INFO(mode.name);
-        std::fenv_t before;
-        std::fegetenv(&before);
+        const SavedEnvironment before;
         mode.set();
         const Settings found = usual_settings();
-        std::fesetenv(&before);
+        before.put_back();
         CHECK(found.background_linear.x == expected.background_linear.x);
         CHECK(found.background_linear.y == expected.background_linear.y);
         CHECK(found.background_linear.z == expected.background_linear.z);

@@ -36,7 +36,7 @@ TEST_CASE("models: textures do not depend on the number of threads that decode t
     one.threads = 1;
     four.threads = 4;
     for (const fs::path& path : all_models(*assets / "models" / "FlightHelmet")) {
-        const auto a = load_gltf(path, one), b = load_gltf(path, four);
+        const auto a = load_gltf(path.string(), one), b = load_gltf(path.string(), four);
         REQUIRE(a);
         REQUIRE(b);
         REQUIRE(a->scene.textures.size() == b->scene.textures.size());

@@ -1,9 +1,8 @@
 // Random damage to STL, PLY, OBJ and 3MF files: whatever the bytes, loading ends with a sound scene or an error, in bounded memory.
+#include "apps/io/platform/process.hpp"
 #include "tests/io/model_maker.hpp"
 
 #include "tests/support/catch.hpp"
-
-#include <sys/resource.h>
 
 #include <random>
 #include <string>
@@ -55,11 +54,7 @@ void damage(Bytes& file, std::mt19937& random) {
     }
 }
 
-std::size_t peak_kib() {
-    struct rusage usage {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss);
-}
+std::size_t peak_kib() { return static_cast<std::size_t>(platform::peak_memory()) / 1024; }
 
 /// The formats, with all that their readers know.
 std::vector<std::pair<std::string, Bytes>> rich_files() {

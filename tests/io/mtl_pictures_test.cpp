@@ -3,6 +3,7 @@
 #include "halflit/target.hpp"
 #include "tests/io/model_maker.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/system.hpp"
 
 #include <array>
 #include <cstdlib>
@@ -31,8 +32,7 @@ std::array<std::uint16_t, 4> texel_at(const Scene& scene, const TextureUse& use,
 }  // namespace
 
 TEST_CASE("MTL: masks, roughness and metalness in pictures of their own are drawn, and BMP and TGA are read", "[io]") {
-    std::string folder = (std::filesystem::temp_directory_path() / "halflit-test-XXXXXX").string();
-    REQUIRE(::mkdtemp(folder.data()) != nullptr);
+    const std::string folder = new_folder().string();
     write_picture(folder + "/color.tga", 2, {{255, 0, 0, 255}, {0, 255, 0, 255}});
     write_picture(folder + "/mask.bmp", 1, {{51, 51, 51, 255}});
     write_picture(folder + "/mask.png", 2, {{255, 255, 255, 102}, {255, 255, 255, 204}});

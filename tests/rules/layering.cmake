@@ -24,6 +24,7 @@ set(subfolders
     "raster/view/=raster/((passes|built_in)/|renderer|frame_plan)"
     "raster/passes/=raster/(built_in/|renderer)"
     "raster/built_in/=raster/((view|passes|kernels)/|renderer|frame_plan)"
+    "apps/io/platform/=apps/io/(files|pictures|gltf|models)/"
     "apps/io/files/=apps/io/(pictures|gltf|models)/"
     "apps/io/pictures/=apps/io/(gltf|models)/"
     "apps/io/gltf/=apps/io/models/"

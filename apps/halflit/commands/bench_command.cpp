@@ -1,12 +1,12 @@
 // halflit bench: the time of a frame, from a scene in memory to 8-bit codes in memory.
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/median.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/stopwatch.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/halflit/report/run_report.hpp"
+#include "apps/io/platform/process.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>
@@ -74,7 +74,7 @@ Result<double> encoding_ms(const Image& image) {
 }
 
 Result<int> run_bench(const BenchOptions& options) {
-    if (options.max_memory_bytes == 0) prepare_heap();
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
     const auto job = make_render_job(options, kBenchSize);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, false);

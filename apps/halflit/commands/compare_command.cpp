@@ -6,6 +6,7 @@
 #include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/program/timeout.hpp"
+#include "apps/io/platform/paths.hpp"
 #include "halflit/image.hpp"
 
 #include <nlohmann/json.hpp>
@@ -26,8 +27,9 @@ std::string sheet_for(const CompareOptions& options) {
     const std::string sheet = path_in(options.folder, kSheetName);
     if (options.markdown == "-") return sheet;
     std::error_code error;
-    const fs::path relative = fs::proximate(sheet, fs::absolute(options.markdown, error).parent_path(), error);
-    return error ? sheet : relative.generic_string();
+    const fs::path relative =
+        fs::proximate(platform::to_path(sheet), fs::absolute(platform::to_path(options.markdown), error).parent_path(), error);
+    return error ? sheet : platform::to_name(relative);
 }
 
 Result<void> write_reports(const CompareOptions& options, const Comparison& comparison) {

@@ -11,7 +11,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <memory>
 
 namespace halflit::cli {
@@ -71,8 +70,7 @@ Result<int> run_diff(const DiffOptions& options) {
     for (const std::string& input : {options.a, options.b})
         if (!options.output.empty() && same_file(options.output, input))
             return fail(ErrorCode::io, printable(options.output) + ": is compared and is not overwritten");
-    std::error_code ignored;
-    const bool a = std::filesystem::is_directory(options.a, ignored), b = std::filesystem::is_directory(options.b, ignored);
+    const bool a = is_folder(options.a), b = is_folder(options.b);
     if (a != b)
         return fail(ErrorCode::usage, fmt::format("{}: expected two files or two folders, found one of each", printable(options.b)));
     return a ? run_folders(options) : run_files(options);

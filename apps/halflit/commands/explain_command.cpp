@@ -1,10 +1,10 @@
 // halflit explain: what made a pixel.
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/halflit/report/pixel_stories.hpp"
+#include "apps/io/platform/process.hpp"
 
 #include <memory>
 #include <vector>
@@ -19,7 +19,7 @@ struct ExplainOptions : RenderOptions {
 
 Result<int> run_explain(ExplainOptions options) {
     if (options.pixels.empty()) return fail(ErrorCode::usage, "explain: expected --pixel X,Y");
-    if (options.max_memory_bytes == 0) prepare_heap();
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
     options.may_want_reference = true;  // for the error
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());

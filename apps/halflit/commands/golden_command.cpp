@@ -7,17 +7,15 @@
 #include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/report/run_report.hpp"
+#include "apps/io/platform/files.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <memory>
 
 namespace halflit::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct GoldenOptions {
     std::string action, folder;
@@ -47,11 +45,9 @@ Result<int> run_check(const GoldenOptions& options) {
     if (!is_free_or_begins_with(options.junit, '<'))
         return fail(ErrorCode::usage, "--junit: expected a new file or an earlier report, found '" + printable(options.junit) + "'");
     const std::string folder = options.report.empty() ? path_in(options.folder, "report") : options.report;
-    std::error_code error;
-    if (options.report.empty() && std::filesystem::is_symlink(folder, error))
+    if (options.report.empty() && platform::is_link(folder))
         return fail(ErrorCode::io, printable(folder) + ": is a symbolic link, which may lead out of the folder; -o names another folder");
-    std::error_code ignored;
-    if (fs::equivalent(folder, options.folder, ignored))
+    if (same_file(folder, options.folder))
         return fail(ErrorCode::usage, "-o: expected another folder than the list's, found '" + printable(folder) + "'");
     if (const auto made = make_folder(folder); !made) return tl::unexpected(made.error());
     const auto results = check_golden(*list, *scenes, {folder, options.max_codes, options.max_share});

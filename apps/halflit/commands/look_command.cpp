@@ -2,13 +2,13 @@
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/look/look.hpp"
 #include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/program/timeout.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/files/in_parts.hpp"
+#include "apps/io/platform/process.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>
@@ -84,7 +84,7 @@ Result<int> run_look(LookFiles options) {
         if (same_file(path, options.scene)) return fail(ErrorCode::io, path + ": is the scene itself and is not overwritten");
         if (const auto checked = check_writable(path); !checked) return tl::unexpected(checked.error());
     }
-    if (options.max_memory_bytes == 0) prepare_heap();
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
     options.sheet = !options.output.empty();
     return within_time(options.timeout_s, [&] { return look_and_write(options); });
 }

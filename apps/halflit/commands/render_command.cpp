@@ -3,11 +3,11 @@
 #include "apps/halflit/farm/render_film.hpp"
 #include "apps/halflit/farm/render_line.hpp"
 #include "apps/halflit/farm/render_many.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/interrupt.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/atomic_file.hpp"
+#include "apps/io/platform/process.hpp"
 
 #include <memory>
 #include <string>
@@ -24,7 +24,7 @@ Result<int> render_scene(PictureOptions options) {
         set_last_words([path = options.report, scene](int signal) {
             (void)write_text(path, error_report(scene, 128 + signal, "interrupted by signal " + std::to_string(signal)));
         });
-    if (options.max_memory_bytes == 0) prepare_heap();
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
     Result<PictureFile> done = draw_picture(options);
     if (done)
         if (const auto written = write_picture(*done); !written) done = tl::unexpected(written.error());

@@ -1,13 +1,13 @@
 // halflit sheet: draws many scenes into one picture, with names and reference pictures.
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/halflit/report/sheet_page.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/files/model_files.hpp"
 #include "apps/io/pictures/picture_reader.hpp"
+#include "apps/io/platform/process.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>
@@ -124,7 +124,7 @@ Result<int> run_sheet(const SheetOptions& options) {
     if (!layout) return tl::unexpected(layout.error());
     if (const auto spared = spare_inputs(options, references); !spared) return tl::unexpected(spared.error());
     if (const auto checked = check_writable(options.output); !checked) return tl::unexpected(checked.error());
-    if (options.max_memory_bytes == 0) prepare_heap();
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
 
     SheetPage page(*layout);
     int code = 0;

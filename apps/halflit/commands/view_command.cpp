@@ -1,6 +1,5 @@
 // halflit view: shows a scene in a window, where it can be turned and its settings be changed.
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/median.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/spelling.hpp"
@@ -8,6 +7,7 @@
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/halflit/report/pixel_story_json.hpp"
 #include "apps/halflit/report/run_report.hpp"
+#include "apps/io/platform/process.hpp"
 #include "apps/viewer/viewer.hpp"
 
 #include <nlohmann/json.hpp>
@@ -56,7 +56,7 @@ Result<int> run_view(ViewOptions options) {
                         viewer::missing_libraries());
     viewer::RehearsalPlan& rehearsal = options.window.rehearsal;
     rehearsal.wanted = rehearsal.orbit_frames > 0 || rehearsal.click || !options.window.screenshot.empty() || !options.report.empty();
-    if (options.max_memory_bytes == 0) prepare_heap();
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
     if (options.settings.region.width > 0) return fail(ErrorCode::usage, "--region: not in a window");
     options.may_want_reference = true;  // the error of a pixel that is clicked on
     auto job = make_render_job(options, kRenderSize);

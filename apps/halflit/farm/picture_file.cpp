@@ -8,7 +8,7 @@
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/atomic_file.hpp"
-#include "apps/io/files/errno_text.hpp"
+#include "apps/io/platform/errno_text.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>

@@ -3,7 +3,6 @@
 
 #include "apps/film/film_writer.hpp"
 #include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/interrupt.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/output_folder.hpp"
@@ -14,8 +13,9 @@
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/atomic_file.hpp"
-#include "apps/io/files/errno_text.hpp"
 #include "apps/io/files/file_access.hpp"
+#include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/process.hpp"
 
 #include <fmt/core.h>
 
@@ -388,7 +388,7 @@ Result<int> render_film(PictureOptions options, bool skip_existing) {
         set_last_words([path = options.report, scene = options.scene](int signal) {
             (void)write_text(path, error_report(scene, 128 + signal, "interrupted by signal " + std::to_string(signal), true));
         });
-    if (options.max_memory_bytes == 0) prepare_heap();
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
     FilmRun film(options, skip_existing);
     const Result<void> done = within_memory(options, [&] { return film.run(); });
     const bool may_report = !options.report.empty() && (done || done.error().code != ErrorCode::usage);

@@ -2,13 +2,14 @@
 #include "apps/halflit/farm/picture_report.hpp"
 
 #include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/report/run_report.hpp"
-#include "apps/io/files/errno_text.hpp"
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/files/model_files.hpp"
+#include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/files.hpp"
+#include "apps/io/platform/process.hpp"
 
 #include <fmt/core.h>
 
@@ -17,7 +18,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -27,28 +27,19 @@
 #include <thread>
 #include <utility>
 
-#include <sys/stat.h>
-
 namespace halflit::cli {
 namespace {
 
-/// A file's identity, whatever its name.
-using FileId = std::pair<dev_t, ino_t>;
+using platform::FileId, platform::whole_path;
 
 std::optional<FileId> file_id(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-    return FileId{status.st_dev, status.st_ino};
-}
-
-std::string whole_path(const std::string& path) {
-    std::error_code ignored;
-    return std::filesystem::weakly_canonical(path, ignored).string();
+    platform::FileStatus status;
+    return platform::status_of(path, status) == 0 ? std::optional(status.id) : std::nullopt;
 }
 
 std::uintmax_t bytes_of(const std::string& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0 && status.st_size > 0 ? static_cast<std::uintmax_t>(status.st_size) : 0;
+    platform::FileStatus status;
+    return platform::status_of(path, status) == 0 ? status.bytes : 0;
 }
 
 /// Leaves to draw, for a number of threads. They are given in the order in which they were asked for, so a scene that needs all threads
@@ -102,7 +93,7 @@ public:
         for (const std::string& folder : folders)
             if (const auto made = make_folder(folder); !made) return tl::unexpected(made.error());
         if (const auto opened = open_report(); !opened) return tl::unexpected(opened.error());
-        if (options_.each.max_memory_bytes == 0) prepare_heap();
+        if (options_.each.max_memory_bytes == 0) platform::prepare_heap();
         // Beyond those that draw, some wait until the system has their file on its disk.
         constexpr std::size_t kWriters = 8;
         const std::size_t wanted = std::min((pictures_.size() + step_ - 1) / step_, static_cast<std::size_t>(threads_) + kWriters);
@@ -195,7 +186,7 @@ private:
         const std::string& path = options_.each.report;
         if (path.empty()) return {};
         if (const auto checked = check_report(path); !checked) return checked;
-        report_.reset(std::fopen(path == "-" ? "/dev/stdout" : path.c_str(), path == "-" ? "a" : "w"));
+        report_.reset(platform::open_for_lines(path));
         if (report_ == nullptr) return fail(ErrorCode::io, path + ": " + io::errno_text(errno));
         return {};
     }

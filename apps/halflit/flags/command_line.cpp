@@ -197,6 +197,7 @@ Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::ve
     if (const auto checked = refuse_empty(arguments); !checked) return tl::unexpected(checked.error());
     drop_dash_of_json(commands, arguments);
     CLI::App root("", "halflit");
+    root.allow_windows_style_options(false);  // "/models/duck.glb" is a path
     root.set_help_flag("-h,--help");
     root.set_help_all_flag("--help-all");
     root.set_version_flag("-V,--version", "");

@@ -6,6 +6,7 @@
 #include "apps/halflit/program/stopwatch.hpp"
 #include "apps/halflit/render/render_job.hpp"
 #include "apps/io/pictures/picture_reader.hpp"
+#include "apps/io/platform/paths.hpp"
 #include "halflit/image.hpp"
 #include "halflit/target.hpp"
 
@@ -115,7 +116,7 @@ Result<std::vector<GoldenResult>> check_golden(const GoldenList& list, const std
     for (const GoldenScene& scene : list.scenes)
         for (const char* kind : {"-expected.png", "-actual.png", "-difference.png"}) {
             std::error_code ignored;
-            fs::remove(fs::path(options.report_folder) / (scene.name + kind), ignored);
+            fs::remove(platform::to_path(path_in(options.report_folder, scene.name + kind)), ignored);
         }
     std::vector<GoldenResult> results;
     for (const GoldenScene* scene : scenes) {
@@ -165,7 +166,7 @@ std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<cons
                     list.cameras.erase(scene->name);
             };
             std::error_code ignored;
-            const bool exists = fs::exists(path, ignored);
+            const bool exists = fs::exists(platform::to_path(path), ignored);
             const auto before = exists ? io::read_picture(path) : fail(ErrorCode::io, "");
             const bool same = before && hash_of(*before) == result.hash;
             if (same && result.hash == result.expected_hash) {

@@ -7,6 +7,8 @@
 #include "apps/halflit/render/built_in_scenes.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/file_access.hpp"
+#include "apps/io/platform/files.hpp"
+#include "apps/io/platform/paths.hpp"
 #include "halflit/target.hpp"
 
 #include <fmt/ranges.h>
@@ -179,8 +181,7 @@ Result<std::map<std::string, GoldenCamera>> cameras_of(const std::string& text) 
 /// Reads a file of lines beside golden.json. A missing one leaves `target` as it is.
 template <class Target, class Parse>
 Result<void> read_lines(const std::string& path, Target& target, const Parse& parse) {
-    std::error_code ignored;
-    if (!fs::exists(path, ignored)) return {};
+    if (!is_file(path) && !is_folder(path)) return {};
     const auto text = read_text(path);
     if (!text) return tl::unexpected(text.error());
     auto parsed = parse(*text);
@@ -191,12 +192,13 @@ Result<void> read_lines(const std::string& path, Target& target, const Parse& pa
 
 /// The path below the folder, which must not leave it.
 Result<std::string> confined(const std::string& folder, const std::string& relative, const char* what) {
-    const fs::path path(relative);
+    const fs::path path = platform::to_path(relative);
     const bool climbs = std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
-    std::error_code error;
-    const fs::path base = fs::weakly_canonical(folder, error), whole = fs::weakly_canonical(fs::path(folder) / path, error);
-    const bool below = !error && !base.empty() && std::mismatch(base.begin(), base.end(), whole.begin(), whole.end()).first == base.end();
-    if (path.empty() || path.is_absolute() || climbs || !below)
+    const bool odd = platform::is_absolute(relative) || !platform::fault_of_path(relative).empty();
+    const fs::path base = platform::to_path(platform::whole_path(folder)),
+                   whole = odd ? fs::path() : platform::to_path(platform::whole_path(path_in(folder, relative)));
+    const bool below = !base.empty() && std::mismatch(base.begin(), base.end(), whole.begin(), whole.end()).first == base.end();
+    if (path.empty() || odd || climbs || !below)
         return fail(ErrorCode::bad_input,
                     fmt::format("{}: expected a path within the folder of {}, found '{}'", what, kListName, printable(relative)));
     return path_in(folder, relative);
@@ -222,8 +224,8 @@ std::vector<std::string> names_for(const std::vector<std::string>& paths) {
             while (!name.empty() && (name[0] == '-' || name[0] == '.')) name.erase(0, 1);
             return name.empty() ? std::string("scene") : name.substr(0, 180);
         };
-        std::string name = cleaned(fs::path(path).stem().string());
-        if (used.contains(name)) name = cleaned(fs::path(path).replace_extension().generic_string());
+        std::string name = cleaned(platform::to_name(platform::to_path(path).stem()));
+        if (used.contains(name)) name = cleaned(platform::to_name(platform::to_path(path).replace_extension()));
         const std::string first = name;
         for (int i = 2; !used.insert(name).second; ++i) name = fmt::format("{}-{}", first, i);
         names.push_back(name);
@@ -234,10 +236,11 @@ std::vector<std::string> names_for(const std::vector<std::string>& paths) {
 Result<std::vector<std::string>> models_below(const std::string& folder) {
     std::vector<std::string> paths;
     std::error_code error;
-    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
+    const fs::path top = platform::to_path(folder);
+    for (fs::recursive_directory_iterator it(top, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = platform::to_name(it->path().filename());
         if (it->is_directory(error) && (name.starts_with('.') || name == "report")) it.disable_recursion_pending();
-        if (it->is_regular_file(error) && is_model_name(name)) paths.push_back(it->path().lexically_relative(folder).generic_string());
+        if (it->is_regular_file(error) && is_model_name(name)) paths.push_back(platform::to_name(it->path().lexically_relative(top)));
     }
     if (error) return fail(ErrorCode::io, printable(folder) + ": " + error.message());
     // The upper ones first, so that they get the short names.
@@ -270,7 +273,7 @@ const KeptView* GoldenList::camera(const GoldenScene& scene) const {
 
 bool has_golden_list(const std::string& folder) {
     std::error_code ignored;
-    return fs::exists(path_in(folder, kListName), ignored);
+    return fs::exists(platform::to_path(path_in(folder, kListName)), ignored);
 }
 
 Result<GoldenList> read_golden_list(const std::string& folder) {

@@ -1,15 +1,14 @@
 #include "apps/halflit/golden/self_test.hpp"
 
 #include "apps/halflit/render/render_job.hpp"
+#include "apps/io/platform/process.hpp"
 #include "halflit/isa.hpp"
 #include "halflit/target.hpp"
 #include "halflit/version.hpp"
 
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <thread>
 
@@ -34,38 +33,17 @@ std::vector<Isa> isas_of_machine() {
     return isas;
 }
 
-/// The value of the first line of a system's file that begins with the key, without quotes; empty if there is none.
-std::string system_value(const char* path, std::string_view key, char separator) {
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-        if (!line.starts_with(key)) continue;
-        const std::size_t begin = line.find_first_not_of(" \t\"", std::min(line.find(separator), line.size() - 1) + 1);
-        if (begin == std::string::npos) return {};
-        line = line.substr(begin);
-        return line.substr(0, line.find_last_not_of('"') + 1);
-    }
-    return {};
-}
-
-/// "Linux 6.1.0 x86_64, Debian GNU/Linux 12 (bookworm)"
-std::string system_name() {
-    struct utsname names {};
-    if (::uname(&names) != 0) return "unknown";
-    const std::string distribution = system_value("/etc/os-release", "PRETTY_NAME=", '=');
-    return fmt::format("{} {} {}{}{}", names.sysname, names.release, names.machine, distribution.empty() ? "" : ", ", distribution);
-}
-
 /// The build and the machine, which a report of a fault needs.
 std::string self_test_head(const std::vector<Isa>& isas) {
     std::vector<std::string> names;
     for (const Isa isa : isas) names.emplace_back(isa_name(isa));
     const auto chosen = default_isa();
-    const std::string processor = system_value("/proc/cpuinfo", "model name", ':');
+    const std::string processor = platform::processor_name();
     return fmt::format(
         "halflit {}\npixel epoch: {}\nprocessor: {}\ninstruction sets: {}; in use: {}\ncompiler: {}\nsystem: {}\n"
         "threads: {}\n",
         version(), pixel_epoch(), processor.empty() ? "unknown" : processor, joined(names, ", "),
-        chosen ? std::string(isa_name(*chosen)) : "none, " + chosen.error().message, kCompiler, system_name(),
+        chosen ? std::string(isa_name(*chosen)) : "none, " + chosen.error().message, kCompiler, platform::system_name(),
         std::max(1u, std::thread::hardware_concurrency()));
 }
 

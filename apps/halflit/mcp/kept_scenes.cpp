@@ -2,8 +2,7 @@
 
 #include "apps/halflit/render/built_in_scenes.hpp"
 #include "apps/io/gltf/build/pose_sources.hpp"
-
-#include <sys/stat.h>
+#include "apps/io/platform/files.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -49,9 +48,9 @@ SceneSource copy_of(const SceneSource& source) {
 }  // namespace
 
 KeptScenes::FileState KeptScenes::state_of(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) return {path};
-    return {path, std::int64_t{status.st_size}, std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec};
+    platform::FileStatus status;
+    if (platform::status_of(path, status) != 0) return {path};
+    return {path, static_cast<std::int64_t>(status.bytes), status.changed_ns};
 }
 
 bool KeptScenes::is_fresh(const Kept& kept) {

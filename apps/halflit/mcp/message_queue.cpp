@@ -1,10 +1,7 @@
 #include "apps/halflit/mcp/message_queue.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <new>
 #include <thread>
 #include <utility>
@@ -60,12 +57,12 @@ Incoming parse_message(std::string_view line) {
     }
 }
 
-std::shared_ptr<MessageQueue> MessageQueue::start(int fd) {
+std::shared_ptr<MessageQueue> MessageQueue::start(platform::NativeHandle input) {
     auto queue = std::make_shared<MessageQueue>();
     // The thread may wait for input when the process ends. Without memory, input ends.
-    std::thread([queue, fd] {
+    std::thread([queue, input] {
         try {
-            queue->read_all(fd);
+            queue->read_all(input);
         } catch (const std::bad_alloc&) {
         }
         queue->end();
@@ -134,7 +131,7 @@ void MessageQueue::take_line(std::string_view line) {
     push(std::move(message));
 }
 
-void MessageQueue::read_all(int fd) {
+void MessageQueue::read_all(platform::NativeHandle input) {
     std::array<char, 1 << 16> part;
     std::string line;
     bool too_long = false;  // the rest of the line is left out
@@ -147,8 +144,7 @@ void MessageQueue::read_all(int fd) {
         too_long = false;
     };
     for (;;) {
-        const ssize_t got = ::read(fd, part.data(), part.size());
-        if (got < 0 && errno == EINTR) continue;
+        const std::ptrdiff_t got = platform::read_some(input, part.data(), part.size());
         if (got <= 0) break;
         std::string_view rest(part.data(), static_cast<std::size_t>(got));
         while (!rest.empty()) {

@@ -1,6 +1,8 @@
 // Messages from standard input: one a line, read by a thread of its own, so that a notification can cancel the call that runs.
 #pragma once
 
+#include "apps/io/platform/handles.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <atomic>
@@ -33,7 +35,7 @@ struct Incoming {
 class MessageQueue {
 public:
     /// Starts the thread. It ends with the input; the object lives as long.
-    [[nodiscard]] static std::shared_ptr<MessageQueue> start(int fd);
+    [[nodiscard]] static std::shared_ptr<MessageQueue> start(platform::NativeHandle input);
 
     /// Waits for a message that was not cancelled, which runs from then on; none: the input has ended.
     [[nodiscard]] std::optional<Incoming> next();
@@ -44,7 +46,7 @@ public:
     [[nodiscard]] bool cancelled() const { return cancelled_; }
 
 private:
-    void read_all(int fd);
+    void read_all(platform::NativeHandle input);
     void end();
     void push(Incoming message);
     void take_line(std::string_view line);

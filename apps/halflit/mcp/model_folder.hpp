@@ -3,7 +3,6 @@
 
 #include "halflit/error.hpp"
 
-#include <filesystem>
 #include <string>
 
 namespace halflit::cli {
@@ -21,11 +20,11 @@ public:
     [[nodiscard]] Result<std::string> to_write(const std::string& path) const;
 
 private:
-    [[nodiscard]] Result<std::filesystem::path> resolved(const std::string& path) const;
-    [[nodiscard]] bool holds(const std::filesystem::path& path) const;
-    [[nodiscard]] std::string shown(const std::filesystem::path& path) const;
+    [[nodiscard]] Result<std::string> resolved(const std::string& path) const;
+    [[nodiscard]] bool holds(const std::string& path) const;
+    [[nodiscard]] std::string shown(const std::string& path) const;
 
-    std::filesystem::path root_;
+    std::string root_;  ///< absolute, without links, with '/' at its end
     bool allow_external_ = false;
 };
 

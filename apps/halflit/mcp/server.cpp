@@ -7,14 +7,13 @@
 #include "apps/halflit/mcp/session.hpp"
 #include "apps/halflit/mcp/tool.hpp"
 #include "apps/halflit/program/base64.hpp"
-#include "apps/halflit/program/heap.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/halflit/program/timeout.hpp"
 #include "apps/io/files/atomic_file.hpp"
-
-#include <unistd.h>
+#include "apps/io/platform/handles.hpp"
+#include "apps/io/platform/process.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -118,8 +117,8 @@ std::vector<NamedHelp> tool_helps() {
 Result<int> serve(const McpOptions& options) {
     auto folder = ModelFolder::enter(options.root, options.allow_external);
     if (!folder) return tl::unexpected(folder.error());
-    if (options.max_memory_bytes == 0) prepare_heap();
-    const auto queue = MessageQueue::start(STDIN_FILENO);
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
+    const auto queue = MessageQueue::start(platform::standard_input());
     Tools tools(options, std::move(*folder), *queue);
     McpSession session(tools);
     while (const auto message = queue->next()) {

@@ -1,28 +1,23 @@
 #include "apps/halflit/program/file_names.hpp"
 
 #include "apps/halflit/program/spelling.hpp"
-#include "apps/io/files/errno_text.hpp"
 #include "apps/io/models/formats.hpp"
+#include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/files.hpp"
+#include "apps/io/platform/handles.hpp"
 
 #include <fmt/format.h>
 
-#include <dirent.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <memory>
 
 namespace halflit::cli {
 namespace {
 
+using platform::FileKind, platform::FileStatus;
+
 /// "models/" for "models/duck.glb"; empty for a name without a folder.
-std::string folder_prefix(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }  // npos + 1 is 0
+std::string folder_prefix(const std::string& path) { return path.substr(0, platform::last_separator(path) + 1); }  // npos + 1 is 0
 
 bool ends_with_any_case(std::string_view text, std::string_view end) {
     if (text.size() < end.size()) return false;
@@ -38,36 +33,33 @@ tl::unexpected<Error> refused(const std::string& path, int error) { return fail(
 }  // namespace
 
 bool is_file(const std::string& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0 && !S_ISDIR(status.st_mode);
+    FileStatus status;
+    return platform::status_of(path, status) == 0 && status.kind != FileKind::folder;
 }
 
 bool is_there(const std::string& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0 && status.st_size > 0;
+    FileStatus status;
+    return platform::status_of(path, status) == 0 && status.bytes > 0;
 }
 
 bool is_free_or_begins_with(const std::string& path, char first) {
-    struct stat status {};
-    if (path.empty() || path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return true;
-    std::ifstream file(path, std::ios::binary);
+    FileStatus status;
+    if (path.empty() || path == "-" || platform::status_of(path, status) != 0 || status.kind != FileKind::file) return true;
+    const platform::Handle file = platform::open_to_read(path);
     char found = 0;
-    return !file.get(found) || found == first;
+    return !file.is_open() || platform::read_some(file.get(), &found, 1) != 1 || found == first;
 }
 
 bool is_folder(const std::string& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+    FileStatus status;
+    return platform::status_of(path, status) == 0 && status.kind == FileKind::folder;
 }
 
 bool same_file(const std::string& a, const std::string& b) {
-    struct stat first {
-    }, second{};
-    const bool a_is_there = ::stat(a.c_str(), &first) == 0, b_is_there = ::stat(b.c_str(), &second) == 0;
-    if (a_is_there && b_is_there) return first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-    if (a_is_there || b_is_there) return false;
-    std::error_code ignored;
-    return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+    FileStatus first, second;
+    const bool a_is_there = platform::status_of(a, first) == 0, b_is_there = platform::status_of(b, second) == 0;
+    if (a_is_there && b_is_there) return first.id == second.id;
+    return !a_is_there && !b_is_there && platform::whole_path(a) == platform::whole_path(b);
 }
 
 bool is_model_name(std::string_view path) {
@@ -79,13 +71,8 @@ std::vector<std::string> files_beside(const std::string& path) {
     constexpr std::size_t kMostNames = 1000;
     const std::string prefix = folder_prefix(path);
     std::vector<std::string> files;
-    const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(prefix.empty() ? "." : prefix.c_str()), &::closedir);
-    if (!folder) return files;
-    for (std::size_t i = 0; i < kMostNames; ++i) {
-        const struct dirent* entry = ::readdir(folder.get());
-        if (entry == nullptr) break;
-        if (is_file(prefix + entry->d_name)) files.push_back(prefix + entry->d_name);
-    }
+    for (const std::string& name : platform::names_in(prefix, kMostNames))
+        if (is_file(prefix + name)) files.push_back(prefix + name);
     return files;
 }
 
@@ -97,19 +84,16 @@ std::string did_you_mean_file(const std::string& path, std::vector<std::string> 
 
 Result<void> check_writable(const std::string& path) {
     if (path == "-") return {};
-    struct stat status {};
+    FileStatus status;
     std::string target = path;
-    if (::stat(path.c_str(), &status) == 0) {
-        if (S_ISDIR(status.st_mode)) return refused(path, EISDIR);
-        if (::access(path.c_str(), W_OK) != 0) return refused(path, errno);
-        if (!S_ISREG(status.st_mode)) return {};  // a device is written in place
-        if (char* real = ::realpath(path.c_str(), nullptr)) {
-            target = real;
-            std::free(real);
-        }
+    if (platform::status_of(path, status) == 0) {
+        if (status.kind == FileKind::folder) return refused(path, EISDIR);
+        if (const int error = platform::may_write(path); error != 0) return refused(path, error);
+        if (status.kind != FileKind::file) return {};  // a device is written in place
+        if (std::string real = platform::real_path(path); !real.empty()) target = std::move(real);
     }
     const std::string prefix = folder_prefix(target), folder = prefix.empty() ? "." : prefix;
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) return refused(path + ": the folder " + folder, errno);
+    if (const int error = platform::may_write_into(folder); error != 0) return refused(path + ": the folder " + folder, error);
     return {};
 }
 
@@ -148,7 +132,7 @@ std::optional<std::string> digits_for(std::string_view word, std::string_view na
 }
 
 std::string path_in(const std::string& folder, const std::string& name) {
-    return folder.empty() || folder.ends_with('/') ? folder + name : folder + "/" + name;
+    return folder.empty() || platform::last_separator(folder) + 1 == folder.size() ? folder + name : folder + "/" + name;
 }
 
 }  // namespace halflit::cli

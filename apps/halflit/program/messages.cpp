@@ -1,6 +1,6 @@
 #include "apps/halflit/program/messages.hpp"
 
-#include <unistd.h>
+#include "apps/io/platform/streams.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +18,7 @@ bool coloured() {
     const char* refused = std::getenv("NO_COLOR");
     const char* terminal = std::getenv("TERM");
     const bool dumb = terminal != nullptr && std::string_view(terminal) == "dumb";
-    return ::isatty(STDERR_FILENO) == 1 && !dumb && (refused == nullptr || *refused == '\0');
+    return platform::is_terminal(platform::Stream::error) && !dumb && (refused == nullptr || *refused == '\0');
 }
 
 /// `kind` is printed before the message, in `color` unless that is empty.

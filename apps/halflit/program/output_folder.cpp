@@ -1,6 +1,7 @@
 #include "apps/halflit/program/output_folder.hpp"
 
 #include "apps/halflit/program/messages.hpp"
+#include "apps/io/platform/paths.hpp"
 
 #include <fmt/core.h>
 
@@ -15,8 +16,9 @@ Result<std::string> parse_folder(const std::string& text) {
 
 Result<void> make_folder(const std::string& path) {
     std::error_code error;
-    std::filesystem::create_directories(path, error);
-    if (!error && !std::filesystem::is_directory(path, error)) error = std::make_error_code(std::errc::not_a_directory);
+    const std::filesystem::path folder = platform::to_path(path);
+    std::filesystem::create_directories(folder, error);
+    if (!error && !std::filesystem::is_directory(folder, error)) error = std::make_error_code(std::errc::not_a_directory);
     if (error) return fail(ErrorCode::io, fmt::format("{}: {}", printable(path), error.message()));
     return {};
 }

@@ -1,10 +1,9 @@
 #include "apps/halflit/program/progress_line.hpp"
 
 #include "apps/halflit/program/messages.hpp"
+#include "apps/io/platform/streams.hpp"
 
 #include <fmt/core.h>
-
-#include <unistd.h>
 
 #include <cstdio>
 
@@ -17,7 +16,7 @@ constexpr double kLeastShare = 0.02;  // below, the time left would be a guess
 }  // namespace
 
 ProgressLine::ProgressLine(bool always, double delay_ms)
-    : shown_((always || ::isatty(STDERR_FILENO) == 1) && verbosity() != Verbosity::quiet), delay_ms_(delay_ms) {}
+    : shown_((always || platform::is_terminal(platform::Stream::error)) && verbosity() != Verbosity::quiet), delay_ms_(delay_ms) {}
 
 ProgressLine::~ProgressLine() {
     if (!shown_ || width_ == 0) return;

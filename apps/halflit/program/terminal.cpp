@@ -1,7 +1,6 @@
 #include "apps/halflit/program/terminal.hpp"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
+#include "apps/io/platform/streams.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,8 +11,7 @@ std::size_t help_width() {
     constexpr long kLeast = 60, kMost = 120, kUsual = 80;
     long columns = 0;
     if (const char* text = std::getenv("COLUMNS")) columns = std::strtol(text, nullptr, 10);
-    struct winsize size {};
-    if (columns <= 0 && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) columns = size.ws_col;
+    if (columns <= 0) columns = platform::terminal_columns();
     return static_cast<std::size_t>(columns <= 0 ? kUsual : std::clamp(columns, kLeast, kMost));
 }
 

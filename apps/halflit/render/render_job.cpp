@@ -7,8 +7,9 @@
 #include "apps/halflit/render/part_flags.hpp"
 #include "apps/halflit/render/scene_view.hpp"
 #include "apps/halflit/render/section_flags.hpp"
-#include "apps/io/files/errno_text.hpp"
 #include "apps/io/files/text.hpp"
+#include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/process.hpp"
 #include "halflit/auto_setup.hpp"
 #include "halflit/camera.hpp"
 #include "halflit/image.hpp"
@@ -23,10 +24,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-
-#include <sys/resource.h>
 
 namespace halflit::cli {
 namespace {
@@ -315,14 +313,10 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, P
     return options;
 }
 
-/// From now on, an allocation fails that would take the process beyond this. A lower limit that the process has already stays.
 Result<void> limit_process_memory(std::size_t bytes) {
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_DATA, &limit) == 0) {
-        limit.rlim_cur = std::min({limit.rlim_cur, limit.rlim_max, static_cast<rlim_t>(bytes)});
-        if (::setrlimit(RLIMIT_DATA, &limit) == 0) return {};
-    }
-    return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + io::errno_text(errno));
+    const int error = platform::limit_memory(bytes);
+    if (error == 0) return {};
+    return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + io::errno_text(error));
 }
 
 Result<void> choose_settings(Settings& settings, const RenderOptions& options) {

@@ -1,13 +1,11 @@
 #include "apps/halflit/program/stopwatch.hpp"
 #include "apps/halflit/render/scene_source.hpp"
-#include "apps/io/files/errno_text.hpp"
+#include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/handles.hpp"
+#include "apps/io/platform/streams.hpp"
 
 #include <fmt/core.h>
 
-#include <poll.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 
@@ -16,19 +14,18 @@ namespace {
 
 /// Waits until standard input has something to read or has ended. time_limit_s: from `waiting` on; 0: none.
 Result<void> wait_for_input(const Stopwatch& waiting, double time_limit_s) {
-    pollfd input{STDIN_FILENO, POLLIN, 0};
     for (;;) {
         const double left_ms = time_limit_s > 0.0 ? std::ceil(time_limit_s * 1000.0 - waiting.ms()) : -1.0;
         if (time_limit_s > 0.0 && left_ms <= 0.0)
             return fail(ErrorCode::limit, fmt::format("{}: took more than {} s (--timeout)", kStandardInputName, time_limit_s));
-        if (::poll(&input, 1, static_cast<int>(std::min(left_ms, 1e9))) != 0) return {};  // an error is read's to tell
+        if (platform::wait_for_input(left_ms)) return {};
     }
 }
 
 }  // namespace
 
 Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double time_limit_s) {
-    if (::isatty(STDIN_FILENO) == 1) return fail(ErrorCode::usage, "standard input: expected a model, found a terminal");
+    if (platform::is_terminal(platform::Stream::input)) return fail(ErrorCode::usage, "standard input: expected a model, found a terminal");
     constexpr std::size_t kChunk = std::size_t{1} << 20;
     const Stopwatch reading;
     std::vector<std::byte> bytes;
@@ -38,11 +35,11 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double
         if (size > max_bytes)
             return fail(ErrorCode::limit, fmt::format("{}: more than {} bytes (--max-file-bytes)", kStandardInputName, max_bytes));
         bytes.resize(size + kChunk);
-        const ssize_t got = ::read(STDIN_FILENO, bytes.data() + size, kChunk);
+        const std::ptrdiff_t got = platform::read_some(platform::standard_input(), bytes.data() + size, kChunk);
         const int error = errno;
         bytes.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
         if (got == 0) return bytes;
-        if (got < 0 && error != EINTR) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInputName, io::errno_text(error)));
+        if (got < 0) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInputName, io::errno_text(error)));
     }
 }
 

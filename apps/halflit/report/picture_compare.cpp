@@ -5,6 +5,7 @@
 #include "apps/halflit/program/output_folder.hpp"
 #include "apps/io/files/text.hpp"
 #include "apps/io/pictures/picture_reader.hpp"
+#include "apps/io/platform/paths.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/format.h>
@@ -30,15 +31,16 @@ Result<Image> read_named(const std::string& path) {
 Result<std::set<std::string>> pictures_below(const std::string& folder) {
     std::set<std::string> paths;
     std::error_code error;
-    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-        if (it->is_regular_file(error) && io::is_picture_name(it->path().filename().string()))
-            paths.insert(it->path().lexically_relative(folder).generic_string());
+    const fs::path top = platform::to_path(folder);
+    for (fs::recursive_directory_iterator it(top, error), end; !error && it != end; it.increment(error))
+        if (it->is_regular_file(error) && io::is_picture_name(platform::to_name(it->path().filename())))
+            paths.insert(platform::to_name(it->path().lexically_relative(top)));
     if (error) return fail(ErrorCode::io, printable(folder) + ": " + error.message());
     return paths;
 }
 
 Result<void> make_parent(const std::string& path) {
-    const std::string parent = fs::path(path).parent_path().string();
+    const std::string parent = platform::to_name(platform::to_path(path).parent_path());
     return parent.empty() ? Result<void>() : make_folder(parent);
 }
 
@@ -109,7 +111,7 @@ Result<std::vector<DiffedFile>> diff_folders(const std::string& a, const std::st
             files.push_back({.path = path, .status = in_a->contains(path) ? DiffStatus::missing : DiffStatus::extra});
             continue;
         }
-        const std::string picture = pictures.empty() ? "" : (fs::path(pictures) / (path + ".png")).string();
+        const std::string picture = pictures.empty() ? "" : path_in(pictures, path + ".png");
         auto file = diff_files(path_in(a, path), path_in(b, path), tolerance, path, picture);
         if (!file)
             file = DiffedFile{.path = path, .status = DiffStatus::failed, .message = file.error().message, .error = file.error().code};

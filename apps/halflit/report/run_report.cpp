@@ -5,13 +5,12 @@
 #include "apps/halflit/render/section_flags.hpp"
 #include "apps/halflit/report/camera_json.hpp"
 #include "apps/io/files/text.hpp"
+#include "apps/io/platform/process.hpp"
 #include "halflit/version.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <charconv>
@@ -20,13 +19,6 @@
 
 namespace halflit::cli {
 namespace {
-
-/// The most physical memory that the process has held, in bytes.
-std::int64_t peak_memory() {
-    struct rusage usage {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return std::int64_t{usage.ru_maxrss} * 1024;
-}
 
 /// Counts of fragments (vertices or triangles at lower shading rates): those that each stage ran for, and those that each type of light was
 /// evaluated for.
@@ -108,7 +100,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
     if (!job.sections.cuts.empty()) report["sections"] = sections_json(job);
     report["warnings"] = job.warnings;
     for (const std::string& warning : rendered.warnings) report["warnings"].push_back(warning);
-    report["peak_memory_bytes"] = peak_memory();
+    report["peak_memory_bytes"] = platform::peak_memory();
 }
 
 Json sections_json(const RenderJob& job) {

@@ -1,108 +1,42 @@
 #include "apps/io/files/file_access.hpp"
 
-#include "apps/io/files/errno_text.hpp"
 #include "apps/io/files/text.hpp"
+#include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/files.hpp"
+#include "apps/io/platform/handles.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <utility>
-
-#include <dirent.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#if defined(__linux__)
-#include <linux/openat2.h>
-#include <sys/syscall.h>
-#endif
 
 namespace halflit::io {
 
 namespace {
 
-class Descriptor {
-public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(fd_, other.fd_);
-        return *this;
-    }
-    [[nodiscard]] int get() const { return fd_; }
-
-private:
-    int fd_;
-};
-
-// O_NONBLOCK: opening a FIFO without a writer returns at once, and fstat then refuses it.
-constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
+using platform::FileKind, platform::Handle;
 
 /// Reads an open file that must be regular. `cannot_read` is the code for faults of the file system.
-Result<std::vector<std::byte>> read_regular(int fd, std::size_t max_bytes, ErrorCode cannot_read) {
-    struct stat info {};
-    if (::fstat(fd, &info) != 0) return fail(cannot_read, fmt::format("cannot be read: {}", errno_text(errno)));
-    if (!S_ISREG(info.st_mode))
-        return fail(cannot_read, S_ISDIR(info.st_mode) ? "is a directory, expected a file" : "is not a regular file");
-    const std::uint64_t size = static_cast<std::uint64_t>(info.st_size);
-    if (size > max_bytes) return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {} (max_file_bytes)", size, max_bytes));
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+Result<std::vector<std::byte>> read_regular(const Handle& file, std::size_t max_bytes, ErrorCode cannot_read) {
+    platform::FileStatus info;
+    if (const int error = platform::status_of(file.get(), info); error != 0)
+        return fail(cannot_read, fmt::format("cannot be read: {}", errno_text(error)));
+    if (info.kind != FileKind::file)
+        return fail(cannot_read, info.kind == FileKind::folder ? "is a directory, expected a file" : "is not a regular file");
+    if (info.bytes > max_bytes)
+        return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {} (max_file_bytes)", info.bytes, max_bytes));
+    std::vector<std::byte> bytes(static_cast<std::size_t>(info.bytes));
     std::size_t have = 0;
     while (have < bytes.size()) {
-        const ssize_t got = ::read(fd, bytes.data() + have, bytes.size() - have);
-        if (got < 0 && errno == EINTR) continue;
+        const std::ptrdiff_t got = platform::read_some(file.get(), bytes.data() + have, bytes.size() - have);
         if (got < 0) return fail(cannot_read, fmt::format("cannot be read: {}", errno_text(errno)));
         if (got == 0) return fail(ErrorCode::bad_input, fmt::format("ended after {} of {} bytes while it was read", have, bytes.size()));
         have += static_cast<std::size_t>(got);
     }
     std::byte extra{};
-    if (::read(fd, &extra, 1) > 0) return fail(ErrorCode::bad_input, "grew while it was read");
+    if (platform::read_some(file.get(), &extra, 1) > 0) return fail(ErrorCode::bad_input, "grew while it was read");
     return bytes;
-}
-
-/// Opens component by component and follows no symbolic link. Used where openat2 is missing (before Linux 5.6) or filtered.
-Descriptor open_by_walk(int folder, const std::string& relative) {
-    Descriptor current(::fcntl(folder, F_DUPFD_CLOEXEC, 0));
-    std::size_t begin = 0;
-    while (current.get() >= 0) {
-        const std::size_t slash = relative.find('/', begin);
-        const std::string part = relative.substr(begin, slash == std::string::npos ? std::string::npos : slash - begin);
-        const bool last = slash == std::string::npos;
-        if (part == "..") {
-            errno = EXDEV;
-            return Descriptor(-1);
-        }
-        if (!part.empty() && part != ".")
-            current = Descriptor(::openat(current.get(), part.c_str(), kOpenFlags | O_NOFOLLOW | (last ? 0 : O_DIRECTORY)));
-        if (last) break;
-        begin = slash + 1;
-    }
-    return current;
-}
-
-Descriptor open_beneath(int folder, const std::string& relative) {
-#if defined(SYS_openat2)
-    struct open_how how {};
-    how.flags = static_cast<std::uint64_t>(kOpenFlags);
-    how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
-    for (int attempt = 0; attempt < 3; ++attempt) {
-        const long fd = ::syscall(SYS_openat2, folder, relative.c_str(), &how, sizeof how);
-        if (fd >= 0) return Descriptor(static_cast<int>(fd));
-        if (errno == EAGAIN || errno == EINTR) continue;  // a rename raced with the lookup
-        if (errno != ENOSYS && errno != EPERM) return Descriptor(-1);
-        break;
-    }
-#endif
-    return open_by_walk(folder, relative);
 }
 
 /// Removes "." and resolves ".." by the text alone, as RFC 3986 (5.2.4) does. A relative name may begin with ".." afterwards. A name that
@@ -128,17 +62,9 @@ std::string normalised(std::string_view path) {
     return out;
 }
 
-/// The path without symbolic links, or nothing.
-std::string place_of(const std::string& path) {
-    char* found = ::realpath(path.c_str(), nullptr);
-    std::string out = found == nullptr ? "" : found;
-    ::free(found);
-    return out;
-}
-
-/// The path from the root, with symbolic links as they are.
+/// The path from the root, with links as they are.
 std::string absolute(const std::string& path) {
-    std::string out = normalised(path.starts_with('/') ? path : place_of(".") + "/" + path);
+    std::string out = normalised(platform::is_absolute(path) ? path : platform::real_path(".") + "/" + path);
     if (out.size() > 1 && out.ends_with('/')) out.pop_back();
     return out;
 }
@@ -151,38 +77,27 @@ std::string name_below(const std::string& folder, const std::string& path) {
 }
 
 /// The one entry of a folder that has a name but for the case of ASCII letters; nothing if there is none, or several.
-std::string entry_like(int folder, const std::string& name) {
-    constexpr int kMostEntries = 1 << 16;
-    const auto same = [&](const char* entry) {
-        std::size_t i = 0;
-        while (i < name.size() && entry[i] != '\0' && lower(entry[i]) == lower(name[i])) ++i;
-        return i == name.size() && entry[i] == '\0';
+std::string entry_like(const Handle& folder, const std::string& name) {
+    constexpr std::size_t kMostEntries = 1 << 16;
+    const auto same = [&](const std::string& entry) {
+        return std::equal(entry.begin(), entry.end(), name.begin(), name.end(), [](char a, char b) { return lower(a) == lower(b); });
     };
-    const int copy = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR* const entries = copy >= 0 ? ::fdopendir(copy) : nullptr;
-    if (entries == nullptr) {
-        if (copy >= 0) ::close(copy);
-        return "";
-    }
-    const std::unique_ptr<DIR, int (*)(DIR*)> owner(entries, ::closedir);
     std::string found;
-    for (int i = 0; i < kMostEntries; ++i) {
-        const dirent* const entry = ::readdir(entries);
-        if (entry == nullptr) break;
-        if (!same(entry->d_name)) continue;
+    for (std::string& entry : platform::names_in(folder.get(), kMostEntries)) {
+        if (!same(entry)) continue;
         if (!found.empty()) return "";
-        found = entry->d_name;
+        found = std::move(entry);
     }
     return found;
 }
 
 /// The name with the case that files and folders below `folder` have; nothing if there are none, or several.
-std::string in_their_case(int folder, const std::string& name) {
+std::string in_their_case(platform::NativeHandle folder, const std::string& name) {
     std::string found;
     for (std::size_t at = 0; at < name.size();) {
         const std::size_t slash = std::min(name.find('/', at), name.size());
-        const Descriptor in = open_beneath(folder, found.empty() ? "." : found);
-        const std::string entry = in.get() < 0 ? "" : entry_like(in.get(), name.substr(at, slash - at));
+        const Handle in = platform::open_beneath(folder, found.empty() ? "." : found);
+        const std::string entry = in.is_open() ? entry_like(in, name.substr(at, slash - at)) : "";
         if (entry.empty()) return "";
         found.append(found.empty() ? "" : "/").append(entry);
         at = slash + 1;
@@ -195,9 +110,9 @@ std::string in_their_case(int folder, const std::string& name) {
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes) {
     if (path.find('\0') != std::string::npos)
         return fail(ErrorCode::io, fmt::format("{}: cannot be opened: a file name cannot hold a zero byte", printable(path)));
-    const Descriptor file(::open(path.c_str(), kOpenFlags));
-    if (file.get() < 0) return fail(ErrorCode::io, fmt::format("{}: cannot be opened: {}", printable(path), errno_text(errno)));
-    auto bytes = read_regular(file.get(), max_bytes, ErrorCode::io);
+    const Handle file = platform::open_to_read(path);
+    if (!file.is_open()) return fail(ErrorCode::io, fmt::format("{}: cannot be opened: {}", printable(path), errno_text(errno)));
+    auto bytes = read_regular(file, max_bytes, ErrorCode::io);
     if (!bytes) return fail(bytes.error().code, fmt::format("{}: {}", printable(path), bytes.error().message));
     return bytes;
 }
@@ -208,21 +123,22 @@ ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> also_all
         const bool is_name = !folder.empty() && folder.find('\0') == std::string::npos;
         errno = ENOENT;
         if (is_name) add(folder);
-        if ((!is_name || folders_.back().descriptor < 0) && missing_.empty())
+        if ((!is_name || folders_.back().handle == platform::kNoHandle) && missing_.empty())
             missing_ = fmt::format("the allowed folder \"{}\" cannot be opened: {}", printable(folder), errno_text(errno));
     }
 }
 
 void ModelFolder::add(const std::string& path) {
-    const int fd = ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
-    const int error = errno;
-    folders_.push_back({fd, fd >= 0 ? 0 : error, absolute(path), fd >= 0 ? place_of(path) : ""});
+    Handle folder = platform::open_folder(path);
+    const int error = folder.is_open() ? 0 : errno;
+    folders_.push_back({platform::kNoHandle, error, absolute(path), error == 0 ? platform::real_path(path) : ""});
+    folders_.back().handle = folder.release();
     errno = error;
 }
 
 ModelFolder::~ModelFolder() {
     for (const Folder& folder : folders_)
-        if (folder.descriptor >= 0) ::close(folder.descriptor);
+        if (folder.handle != platform::kNoHandle) (void)platform::close_handle(folder.handle);
 }
 
 Result<void> ModelFolder::check() const {
@@ -244,31 +160,32 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     if (relative.find('\0') != std::string_view::npos) return refuse("a file name cannot hold a zero byte");
     if (relative.find('\\') != std::string_view::npos) return refuse("expected '/' between folders, found '\\'");
     if (relative.front() == '/') return refuse("absolute names are not allowed, expected one below the model's folder");
+    if (const std::string_view fault = platform::fault_of_name(relative); !fault.empty()) return refuse(std::string(fault));
 
     // Whatever name is made below, open_beneath never leaves the folder that it is given.
     int error = ENOENT;
     const auto open_in = [&](const Folder& folder, const std::string& name) {
-        Descriptor file = folder.descriptor < 0 || name.empty() ? Descriptor(-1) : open_beneath(folder.descriptor, name);
-        if (file.get() < 0 && error == ENOENT) error = folder.descriptor < 0 ? folder.error : name.empty() ? EISDIR : errno;
+        Handle file = folder.error != 0 || name.empty() ? Handle() : platform::open_beneath(folder.handle, name);
+        if (!file.is_open() && error == ENOENT) error = folder.error != 0 ? folder.error : name.empty() ? EISDIR : errno;
         return file;
     };
     const std::string name = normalised(relative);
     const bool leads_up = name == ".." || name.starts_with("../");
-    Descriptor file(-1);
+    Handle file;
     if (!leads_up)
-        for (std::size_t i = 0; i < folders_.size() && file.get() < 0; ++i) file = open_in(folders_[i], name);
-    if (file.get() < 0 && has_base_ && !folders_[0].at.empty()) {
+        for (std::size_t i = 0; i < folders_.size() && !file.is_open(); ++i) file = open_in(folders_[i], name);
+    if (!file.is_open() && has_base_ && !folders_[0].at.empty()) {
         // A name that leads out of the model's folder, itself or by a symbolic link, may lead back, or into one that is allowed.
         if (leads_up) error = EXDEV;
         const std::string target = normalised(folders_[0].at + "/" + std::string(relative));
-        const std::string real = folders_.size() > 1 ? place_of(target) : "";
-        for (std::size_t i = 0; i < folders_.size() && file.get() < 0; ++i)
+        const std::string real = folders_.size() > 1 ? platform::linked_place(target) : "";
+        for (std::size_t i = 0; i < folders_.size() && !file.is_open(); ++i)
             for (const auto& [path, folder] : {std::pair(&target, &folders_[i].name), {&target, &folders_[i].at}, {&real, &folders_[i].at}})
-                if (const std::string below = name_below(*folder, *path); file.get() < 0 && !below.empty())
+                if (const std::string below = name_below(*folder, *path); !file.is_open() && !below.empty())
                     file = open_in(folders_[i], below);
     }
-    if (file.get() >= 0) {
-        auto bytes = read_regular(file.get(), max_bytes, ErrorCode::bad_input);
+    if (file.is_open()) {
+        auto bytes = read_regular(file, max_bytes, ErrorCode::bad_input);
         if (!bytes) return fail(bytes.error().code, fmt::format("\"{}\": {}", shown, bytes.error().message));
         return bytes;
     }
@@ -297,8 +214,8 @@ Result<std::vector<std::byte>> ModelFolder::read_like(std::string_view name, std
         std::vector<std::string> spelled{one};
         const std::string clean = normalised(one);
         for (const Folder& folder : folders_)
-            if (folder.descriptor >= 0 && !clean.starts_with(".."))
-                if (std::string other = in_their_case(folder.descriptor, clean); !other.empty()) spelled.push_back(std::move(other));
+            if (folder.error == 0 && !clean.starts_with(".."))
+                if (std::string other = in_their_case(folder.handle, clean); !other.empty()) spelled.push_back(std::move(other));
         for (const std::string& spelling : spelled) {
             auto bytes = read(spelling, max_bytes);
             if (!bytes && bytes.error().code == ErrorCode::bad_input) continue;

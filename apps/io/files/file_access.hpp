@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/io/files/text.hpp"
+#include "apps/io/platform/handles.hpp"
 #include "halflit/error.hpp"
 
 #include <cstddef>
@@ -19,7 +20,8 @@ inline constexpr std::size_t kDefaultMaxFileBytes = std::size_t{512} << 20;
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes = kDefaultMaxFileBytes);
 
 /// Opens files by the names that a model gives, below the model's folder or one that is allowed: no absolute name, no ".." and no symbolic
-/// link that leads elsewhere, and regular files alone (a FIFO or a device is refused without waiting for it).
+/// link that leads elsewhere, and regular files alone (a FIFO or a device is refused without waiting for it). On Windows no links at all,
+/// and no name that Windows takes for a device, a stream or a drive.
 class ModelFolder {
 public:
     /// `base_dir` is the model's folder; empty means that there is none. `also_allowed` are folders in which a name is looked up when the
@@ -44,8 +46,8 @@ public:
 
 private:
     struct Folder {
-        int descriptor;    ///< -1 where opening failed
-        int error;         ///< errno of that failure, or 0
+        platform::NativeHandle handle;
+        int error;         ///< errno where it could not be opened, or 0
         std::string name;  ///< as it was given, made absolute, without "." and ".."
         std::string at;    ///< its place, without symbolic links; empty where it is not known
     };

@@ -1,5 +1,6 @@
 #include "apps/io/files/text.hpp"
 
+#include "apps/io/platform/files.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
@@ -119,9 +120,10 @@ std::string display_safe_json(std::string_view json) {
 }
 
 std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
+    const std::size_t slash = platform::last_separator(path);
     if (slash == std::string::npos) return ".";
-    return slash == 0 ? "/" : path.substr(0, slash);
+    const bool of_root = slash == 0 || path[slash - 1] == ':';  // "C:" is another folder than "C:/"
+    return path.substr(0, of_root ? slash + 1 : slash);
 }
 
 }  // namespace halflit::io

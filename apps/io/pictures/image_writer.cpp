@@ -6,6 +6,7 @@
 #include "apps/io/pictures/exr_file.hpp"
 #include "apps/io/pictures/pfm_file.hpp"
 #include "apps/io/pictures/webp_encoder.hpp"
+#include "apps/io/platform/files.hpp"
 #include "sh/fp_environment.hpp"
 #include "shading/out_of_memory.hpp"
 
@@ -249,7 +250,7 @@ std::string_view output_format_name(OutputFormat format) { return row_of(format)
 
 Result<OutputFormat> output_format_of(std::string_view path) {
     if (path == "-") return OutputFormat::png;
-    const std::size_t slash = path.rfind('/');
+    const std::size_t slash = platform::last_separator(path);
     const std::string_view name = slash == std::string_view::npos ? path : path.substr(slash + 1);
     const std::size_t dot = name.rfind('.');
     std::string extension(dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1));

@@ -1,4 +1,4 @@
-#include "apps/halflit/program/heap.hpp"
+#include "apps/io/platform/process.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <unistd.h>
 #endif
 
-namespace halflit::cli {
+namespace halflit::platform {
 
 #ifdef __GLIBC__
 
@@ -55,4 +55,4 @@ void prepare_heap() {}
 
 #endif
 
-}  // namespace halflit::cli
+}  // namespace halflit::platform

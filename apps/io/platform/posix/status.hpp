@@ -1,0 +1,22 @@
+#pragma once
+
+#include "apps/io/platform/files.hpp"
+
+#include <sys/stat.h>
+
+namespace halflit::platform {
+
+inline FileStatus to_status(const struct stat& info) {
+    FileStatus status;
+    status.kind = S_ISREG(info.st_mode)    ? FileKind::file
+                  : S_ISDIR(info.st_mode)  ? FileKind::folder
+                  : S_ISFIFO(info.st_mode) ? FileKind::pipe
+                                           : FileKind::device;
+    status.bytes = info.st_size > 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
+    status.id = {static_cast<std::uint64_t>(info.st_dev), static_cast<std::uint64_t>(info.st_ino)};
+    status.changed_ns = std::int64_t{info.st_mtim.tv_sec} * 1'000'000'000 + info.st_mtim.tv_nsec;
+    status.mode = static_cast<unsigned>(info.st_mode) & 0777;
+    return status;
+}
+
+}  // namespace halflit::platform
