@@ -1,7 +1,7 @@
 # For toolchains whose compilers must not look into the build machine's /usr/include: a folder with links to the libraries there that are
 # headers alone.
 set(HALFLIT_HEADER_LINKS ${CMAKE_BINARY_DIR}/header-only)
-foreach(folder xsimd tl fmt stb catch2 nlohmann CLI)
+foreach(folder xsimd tl fmt stb catch2 nlohmann CLI tiny_gltf.h)
     if(EXISTS /usr/include/${folder} AND NOT EXISTS ${HALFLIT_HEADER_LINKS}/${folder})
         file(MAKE_DIRECTORY ${HALFLIT_HEADER_LINKS})
         file(CREATE_LINK /usr/include/${folder} ${HALFLIT_HEADER_LINKS}/${folder} SYMBOLIC)

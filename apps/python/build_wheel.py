@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Makes the wheel of the Python package, and is its PEP 517 backend. Needs patchelf and binutils, and no Python package.
 
-    build_wheel.py LIBHALFLIT_PYTHON_SO FOLDER [LICENCES]
-        writes FOLDER/halflit-VERSION-py3-none-PLATFORM.whl and prints its name. LICENCES: a folder with the licences of libraries that are
-        linked statically (./dev package --portable)
+    build_wheel.py LIBRARY FOLDER [LICENCES]
+        writes FOLDER/halflit-VERSION-py3-none-PLATFORM.whl and prints its name. LIBRARY: libhalflit_python.so, or halflit.dll for Windows.
+        LICENCES: a folder with the licences of libraries that are linked statically (./dev package --portable)
     python3 -m build --wheel --no-isolation --config-setting library=LIBHALFLIT_PYTHON_SO
     python3 -m build --sdist --no-isolation
 
@@ -77,6 +77,20 @@ def needed(path):
             sys.exit(f"build_wheel: {path} needs {name}, which is not there")
         found[name] = os.path.realpath(where)
     return found
+
+
+OF_WINDOWS = re.compile(r"^(kernel32|ntdll|msvcrt|advapi32|shell32|user32|psapi|bcrypt|ole32)\.dll$", re.I)
+
+
+def bundle_for_windows(library, folder):
+    """Puts halflit.dll into the folder. It must need nothing but Windows."""
+    own = os.path.join(folder, "halflit.dll")
+    prefix = "x86_64-w64-mingw32-" if shutil.which("x86_64-w64-mingw32-objdump") else ""
+    strange = [name for name in re.findall(r"DLL Name: (\S+)", output(prefix + "objdump", "-p", library)) if not OF_WINDOWS.match(name)]
+    if strange:
+        sys.exit(f"build_wheel: {library} needs {', '.join(strange)}, which Windows does not have")
+    output(prefix + "strip", "--strip-unneeded", "-o", own, library)
+    return [own]
 
 
 def machine(path):
@@ -154,8 +168,11 @@ def make(library, folder, licences_folder=None):
                 with open(path, "rb") as file:
                     files[os.path.relpath(path, HERE)] = file.read()
     with tempfile.TemporaryDirectory() as scratch:
-        paths, libraries = bundle(library, scratch)
-        tag = "py3-none-" + platform_tag(paths)
+        if library.endswith(".dll"):
+            paths, libraries, tag = bundle_for_windows(library, scratch), {}, "py3-none-win_amd64"
+        else:
+            paths, libraries = bundle(library, scratch)
+            tag = "py3-none-" + platform_tag(paths)
         for path in paths:
             with open(path, "rb") as file:
                 files["halflit/lib/" + os.path.basename(path)] = file.read()
@@ -185,7 +202,7 @@ def make(library, folder, licences_folder=None):
 def write(archive, path, data):
     """Adds a file with a fixed date, so that equal contents make equal wheels."""
     entry = zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0))
-    entry.external_attr = (0o100755 if ".so" in path else 0o100644) << 16
+    entry.external_attr = (0o100755 if ".so" in path or path.endswith(".dll") else 0o100644) << 16
     entry.compress_type = zipfile.ZIP_DEFLATED
     archive.writestr(entry, data)
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Builds the libraries of cmake/dependencies.cmake that are not headers alone, statically and without what is not used, from Debian's
-# sources: libraries.sh ARCH SYSROOT SOURCES PREFIX. ARCH is Debian's name; SYSROOT, SOURCES and PREFIX are folders.
+# sources: libraries.sh SOURCES PREFIX CMAKE_FLAGS... SOURCES and PREFIX are folders; the flags name the toolchain and its settings.
 set -euo pipefail
 
 here=$(dirname "$(readlink -f "$0")")
-arch=$1 sysroot=$2 sources=$3 prefix=$4
+sources=$1 prefix=$2
+toolchain=("${@:3}")
 work=$prefix/build
 
 # library NAME FOLDER [CMAKE_FLAGS...]: configures, builds and installs the project in FOLDER, unless that is done.
@@ -12,9 +13,9 @@ library() {
     local name=$1 folder=$2
     shift 2
     [ ! -e "$work/$name.done" ] || return 0
-    echo "portable: $name ($arch)" >&2
-    { cmake -S "$folder" -B "$work/$name" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DHALFLIT_ARCH="$arch" \
-        -DHALFLIT_SYSROOT="$sysroot" -DHALFLIT_PREFIX="$prefix" -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR:PATH=lib \
+    echo "portable: $name" >&2
+    { cmake -S "$folder" -B "$work/$name" -G Ninja "${toolchain[@]}" -DHALFLIT_PREFIX="$prefix" \
+        -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR:PATH=lib \
         -DCMAKE_BUILD_TYPE=Release -DCMAKE_{C,CXX}_FLAGS_RELEASE="-O2 -DNDEBUG" -DCMAKE_{C,CXX}_COMPILER_LAUNCHER=ccache \
         -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF "$@" && cmake --build "$work/$name" --target install; } >"$work/$name.log" 2>&1 || {
         tail -n 40 "$work/$name.log" >&2
@@ -33,7 +34,8 @@ library jpeg "$(source_of libjpeg-turbo)" -DENABLE_SHARED=OFF -DWITH_TURBOJPEG=O
 library meshoptimizer "$(source_of meshoptimizer)" -DMESHOPT_BUILD_DEMO=OFF
 library webp "$(source_of libwebp)" -DWEBP_BUILD_{ANIM_UTILS,CWEBP,DWEBP,GIF2WEBP,IMG2WEBP,VWEBP,WEBPINFO,WEBPMUX,EXTRAS}=OFF \
     -DWEBP_BUILD_LIBWEBPMUX=ON
-library imath "$(source_of imath)"
-library openexr "$(source_of openexr)" -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_EXAMPLES=OFF -DOPENEXR_INSTALL_TOOLS=OFF
+library imath "$(source_of imath)" -DIMATH_INSTALL_PKG_CONFIG=ON
+library openexr "$(source_of openexr)" -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_EXAMPLES=OFF -DOPENEXR_INSTALL_TOOLS=OFF \
+    -DOPENEXR_INSTALL_PKG_CONFIG=ON
 # IlmThread needs Iex: its file for pkg-config has them in the other order, which static libraries do not allow.
 sed -i 's/\(-lIex[^ ]*\) \(-lIlmThread[^ ]*\)/\2 \1/' "$prefix/lib/pkgconfig/OpenEXR.pc"

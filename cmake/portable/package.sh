@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes packages that run on old and new systems (`./dev package --portable`): a program without shared libraries, and a wheel.
-#   package.sh ARCH ROOT FOLDER     ARCH: amd64 or arm64; ROOT: the project; FOLDER: where the packages go
+# Makes packages that run on old and new systems (`./dev package --portable`, `--windows`): a program without shared libraries, and a wheel.
+# For Windows the C interface too, as halflit.dll.
+#   package.sh ARCH ROOT FOLDER     ARCH: amd64, arm64 or windows; ROOT: the project; FOLDER: where the packages go
 # Intermediate files are kept in ROOT/build/portable.
 set -euo pipefail
 
@@ -10,8 +11,8 @@ output=$(realpath "$3")
 here=$root/cmake/portable
 made=$root/build/portable/$arch sources=$root/build/portable/sources
 # Debian's sources of what is linked, and Debian's packages of what is compiled in: headers, and the compiler's own libraries.
-linked=(draco expat fmtlib giflib imath libdeflate libjpeg-turbo libspng libwebp meshoptimizer openexr zlib)
-compiled_in=(libxsimd-dev libexpected-dev libcli11-dev nlohmann-json3-dev libstb-dev gcc-12-base)
+readarray -t linked <"$here/linked.txt"
+compiled_in=(libxsimd-dev libexpected-dev libcli11-dev nlohmann-json3-dev libstb-dev)
 
 # run STEP COMMAND...: quiet unless it fails.
 run() {
@@ -24,21 +25,31 @@ run() {
     }
 }
 
+system=linux
 case $arch in
 amd64) triplet=x86_64-linux-gnu ;;
 arm64) triplet=aarch64-linux-gnu ;;
+windows) system=windows triplet=x86_64-w64-mingw32 ;;
 *)
-    echo "package.sh: expected amd64 or arm64, found '$arch'" >&2
+    echo "package.sh: expected amd64, arm64 or windows, found '$arch'" >&2
     exit 2
     ;;
 esac
 mkdir -p "$made"
 run sources "$root/apps/web/sources.sh" "$sources" "${linked[@]}"
-run sysroot "$here/sysroot.sh" "$arch" "$made/sysroot"
-run libraries "$here/libraries.sh" "$arch" "$made/sysroot" "$sources" "$made/prefix"
+if [ $system = windows ]; then
+    compiled_in+=(gcc-mingw-w64-base mingw-w64-common)  # the compiler's own libraries, and those of Windows's C library
+    toolchain=(-DCMAKE_TOOLCHAIN_FILE="$root/cmake/windows.cmake")
+    export WINEDEBUG=-all WINEPREFIX="$made/wine"
+else
+    compiled_in+=(gcc-12-base)
+    run sysroot "$here/sysroot.sh" "$arch" "$made/sysroot"
+    toolchain=(-DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DHALFLIT_ARCH="$arch" -DHALFLIT_SYSROOT="$made/sysroot")
+fi
+run libraries "$here/libraries.sh" "$sources" "$made/prefix" "${toolchain[@]}"
 # Threads come from the standard library, and halflit view, which loads SDL2, is left out: a static program cannot load libraries.
-run configuration cmake -S "$root" -B "$made/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" \
-    -DHALFLIT_ARCH="$arch" -DHALFLIT_SYSROOT="$made/sysroot" -DHALFLIT_PREFIX="$made/prefix" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
+run configuration cmake -S "$root" -B "$made/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${toolchain[@]}" \
+    -DHALFLIT_PREFIX="$made/prefix" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
     -DHALFLIT_ONETBB=OFF -DHALFLIT_VIEWER=OFF -DHALFLIT_BUILD_TESTS=OFF -DHALFLIT_INSTALL=OFF
 run program cmake --build "$made/build" --target halflit halflit_python
 
@@ -52,20 +63,35 @@ notice() {
     done
 }
 version=$(sed -n 's/^project(halflit VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
-package=halflit-$version-linux-${triplet%%-*}
+package=halflit-$version-$system-${triplet%%-*}
 rm -rf "${made:?}/$package"
 mkdir -p "$made/$package/licences"
 for name in "${linked[@]}"; do notice "$(compgen -G "$sources/$name-[0-9]*/debian/copyright")" >"$made/$package/licences/$name.txt"; done
 for name in "${compiled_in[@]}"; do notice "/usr/share/doc/$name/copyright" >"$made/$package/licences/$name.txt"; done
-notice "$made/sysroot/usr/share/doc/libc6/copyright" >"$made/$package/licences/glibc.txt"
-cat >"$made/$package/licences/README" <<'TEXT'
-Licences of the libraries that halflit brings. This software is based in part on the work of the Independent JPEG Group.
-The GNU C library is under the LGPL: halflit's source and `./dev package --portable` link the program with another version of it.
-TEXT
-"$root/apps/python/build_wheel.py" "$made/build/python/libhalflit_python.so" "$output" "$made/$package/licences"
+echo "Licences of the libraries that halflit brings. This software is based in part on the work of the Independent JPEG Group." \
+    >"$made/$package/licences/README"
+library=$made/build/python/libhalflit_python.so
+if [ $system = windows ]; then
+    library=$made/build/bin/halflit.dll
+else
+    notice "$made/sysroot/usr/share/doc/libc6/copyright" >"$made/$package/licences/glibc.txt"
+    echo "The GNU C library is under the LGPL: halflit's source and \`./dev package --portable\` link the program with another version of it." \
+        >>"$made/$package/licences/README"
+fi
+"$root/apps/python/build_wheel.py" "$library" "$output" "$made/$package/licences"
 
 cp "$root/LICENSE" "$root/docs/SKILL.md" "$made/$package/"
 cp "$root/apps/halflit/fonts/LICENSE" "$made/$package/licences/dejavu-fonts.txt"
+if [ $system = windows ]; then
+    # The program beside the library for C, its header, and what linkers take: an import library, and the list of names for others.
+    mkdir -p "$made/$package/include/halflit" "$made/$package/lib"
+    for name in halflit.exe halflit.dll; do "$triplet-strip" -o "$made/$package/$name" "$made/build/bin/$name"; done
+    cp "$root/apps/c/include/halflit/halflit.h" "$made/$package/include/halflit/"
+    cp "$made/build/python/libhalflit.dll.a" "$made/build/generated/halflit.def" "$made/$package/lib/"
+    python3 "$here/zip.py" "$made/$package" "$output/$package.zip"
+    ls -l "$output/$package.zip"
+    exit 0
+fi
 "$triplet-strip" -o "$made/$package/halflit" "$made/build/bin/halflit"
 tar -C "$made" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -c "$package" | gzip -9n >"$output/$package.tar.gz"
 ls -l "$output/$package.tar.gz"

@@ -136,8 +136,11 @@ def library_path() -> str:
     """The file that HALFLIT_LIBRARY names, or else the package's own library, or else that of the system."""
     if os.environ.get("HALFLIT_LIBRARY"):
         return os.environ["HALFLIT_LIBRARY"]
-    own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "libhalflit_python.so")
-    return own if os.path.exists(own) else "libhalflit_c.so." + VERSION.rpartition(".")[0]
+    windows = os.name == "nt"
+    own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "halflit.dll" if windows else "libhalflit_python.so")
+    if os.path.exists(own):
+        return own
+    return "halflit.dll" if windows else "libhalflit_c.so." + VERSION.rpartition(".")[0]
 
 
 def _load() -> Any:
