@@ -74,7 +74,7 @@ endif()
 option(HALFLIT_BUNDLE "Install the shared libraries that the program needs beside it" OFF)
 if(TARGET halflit)
     if(HALFLIT_BUNDLE)
-        set_target_properties(halflit PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/halflit")
+        set_target_properties(halflit PROPERTIES INSTALL_RPATH "${HALFLIT_ORIGIN}/../${CMAKE_INSTALL_LIBDIR}/halflit")
         install(TARGETS halflit
             RUNTIME_DEPENDENCIES
                 PRE_EXCLUDE_REGEXES "^lib(c|m|dl|pthread|rt|stdc\\+\\+|gcc_s)\\.so" "^ld-linux"

@@ -71,6 +71,28 @@ function(halflit_add_objects name)
     set_property(GLOBAL APPEND PROPERTY HALFLIT_OBJECTS_${name} ${ARGN})
 endfunction()
 
+# The folder of a program or a library itself, in the paths where it looks for others.
+if(APPLE)
+    set(HALFLIT_ORIGIN "@loader_path")
+else()
+    set(HALFLIT_ORIGIN "$ORIGIN")
+endif()
+
+# The target shows the names of a version script alone. Apple's linker takes a list of names, which begin with an underscore there.
+function(halflit_show_names target script)
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
+    if(NOT APPLE)
+        target_link_options(${target} PRIVATE -Wl,--version-script=${script})
+        return()
+    endif()
+    file(STRINGS ${script} names REGEX "^ +[a-zA-Z_].*;$")
+    list(TRANSFORM names REPLACE "^ +(.*)$" "_\\1")
+    string(REGEX REPLACE ";+" "\n" names "${names}")
+    set(list ${CMAKE_CURRENT_BINARY_DIR}/${target}.exported)
+    file(CONFIGURE OUTPUT ${list} CONTENT "${names}\n" @ONLY)
+    target_link_options(${target} PRIVATE -Wl,-exported_symbols_list,${list})
+endfunction()
+
 # Static: halflit::NAME is the last of its layers. Shared: a library lib<OUTPUT>.so of all its layers' objects, of which only the names that
 # cmake/exported.map lists are visible.
 function(halflit_component name output)
@@ -96,9 +118,11 @@ function(halflit_component name output)
     set_target_properties(${target} PROPERTIES
         OUTPUT_NAME ${output} LINKER_LANGUAGE CXX EXPORT_NAME ${name}
         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-        INSTALL_RPATH "$ORIGIN"
-        LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exported.map)
-    target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exported.map -Wl,--no-undefined)
+        INSTALL_RPATH "${HALFLIT_ORIGIN}")
+    halflit_show_names(${target} ${PROJECT_SOURCE_DIR}/cmake/exported.map)
+    if(NOT APPLE)
+        target_link_options(${target} PRIVATE -Wl,--no-undefined)
+    endif()
     target_link_libraries(${target} PUBLIC ${arg_NEEDS} PRIVATE ${arg_PRIVATE})
     target_compile_features(${target} PUBLIC cxx_std_20)
     foreach(layer IN LISTS arg_LAYERS)

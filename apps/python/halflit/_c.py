@@ -10,6 +10,7 @@ import functools
 import os
 import re
 import signal
+import sys
 import threading
 from typing import Any, Dict, List
 
@@ -140,7 +141,8 @@ def library_path() -> str:
     own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "halflit.dll" if windows else "libhalflit_python.so")
     if os.path.exists(own):
         return own
-    return "halflit.dll" if windows else "libhalflit_c.so." + VERSION.rpartition(".")[0]
+    version = VERSION.rpartition(".")[0]
+    return "halflit.dll" if windows else f"libhalflit_c.{version}.dylib" if sys.platform == "darwin" else f"libhalflit_c.so.{version}"
 
 
 def _load() -> Any:

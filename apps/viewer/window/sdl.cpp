@@ -7,7 +7,11 @@
 namespace halflit::viewer {
 
 Result<Sdl> load_sdl() {
+#ifdef __APPLE__
+    constexpr const char* kLibrary = "libSDL2-2.0.0.dylib";
+#else
     constexpr const char* kLibrary = "libSDL2-2.0.so.0";
+#endif
     void* const library = ::dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
         return fail(ErrorCode::usage, std::string("view: needs the library SDL2 (") + kLibrary + ", in Debian's package libsdl2-2.0-0)");

@@ -2,6 +2,9 @@
 
 #include <pthread.h>
 #include <sys/resource.h>
+#ifdef __APPLE__
+#include <sys/sysctl.h>
+#endif
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -60,8 +63,24 @@ bool may_be_running(std::int64_t process) { return ::kill(static_cast<pid_t>(pro
 std::int64_t peak_memory() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+    return usage.ru_maxrss;  // bytes there, kB elsewhere
+#else
     return std::int64_t{usage.ru_maxrss} * 1024;
+#endif
 }
+
+#ifdef __APPLE__
+
+int limit_memory(std::size_t /*bytes*/) { return ENOTSUP; }  // the limit can be set there, and limits nothing
+
+std::string processor_name() {
+    char name[128] = "";
+    std::size_t bytes = sizeof name - 1;
+    return ::sysctlbyname("machdep.cpu.brand_string", name, &bytes, nullptr, 0) == 0 ? name : "";
+}
+
+#else
 
 int limit_memory(std::size_t bytes) {
     rlimit limit{};
@@ -72,14 +91,16 @@ int limit_memory(std::size_t bytes) {
     return errno;
 }
 
+std::string processor_name() { return system_value("/proc/cpuinfo", "model name", ':'); }
+
+#endif
+
 std::string system_name() {
     struct utsname names {};
     if (::uname(&names) != 0) return "unknown";
     const std::string distribution = system_value("/etc/os-release", "PRETTY_NAME=", '=');
     return std::string(names.sysname) + " " + names.release + " " + names.machine + (distribution.empty() ? "" : ", ") + distribution;
 }
-
-std::string processor_name() { return system_value("/proc/cpuinfo", "model name", ':'); }
 
 void call_before_end(void (*last_words)(int signal)) {
     words_before_end = last_words;

@@ -14,7 +14,12 @@ inline FileStatus to_status(const struct stat& info) {
                                            : FileKind::device;
     status.bytes = info.st_size > 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
     status.id = {static_cast<std::uint64_t>(info.st_dev), static_cast<std::uint64_t>(info.st_ino)};
-    status.changed_ns = std::int64_t{info.st_mtim.tv_sec} * 1'000'000'000 + info.st_mtim.tv_nsec;
+#ifdef __APPLE__
+    const timespec& changed = info.st_mtimespec;
+#else
+    const timespec& changed = info.st_mtim;
+#endif
+    status.changed_ns = std::int64_t{changed.tv_sec} * 1'000'000'000 + changed.tv_nsec;
     status.mode = static_cast<unsigned>(info.st_mode) & 0777;
     return status;
 }
