@@ -22,11 +22,11 @@ SetHandler set_in_other_library() {
     return reinterpret_cast<SetHandler>(reinterpret_cast<void (*)()>(found));
 }
 
-SetHandler set_handler = std::signal;  ///< of the library whose handler was replaced
+std::atomic<SetHandler> set_handler{std::signal};  ///< of the library whose handler was replaced
 std::atomic<Handler> handler_before{SIG_DFL};
 
 void note(int signal) {
-    set_handler(SIGINT, note);  // it was reset
+    set_handler.load()(SIGINT, note);  // it was reset
     ++interrupts;
     const Handler before = handler_before.load();
     if (before != SIG_DFL && before != SIG_IGN && before != SIG_ERR) before(signal);
@@ -59,8 +59,9 @@ void begin_counting() {
 }
 
 void end_counting() {
-    const Handler now = set_handler(SIGINT, handler_before);
-    if (now != note && now != SIG_ERR) set_handler(SIGINT, now);
+    const SetHandler set = set_handler;
+    const Handler now = set(SIGINT, handler_before);
+    if (now != note && now != SIG_ERR) set(SIGINT, now);
 }
 
 }  // namespace halflit::c

@@ -44,6 +44,9 @@ TEST_CASE("model folder: files below it are read, whatever leads elsewhere is no
     (void)make_link(outside.path / "secret.bin", folder.path / "link.bin");
     (void)make_link(outside.path, folder.path / "linked-folder");
     (void)make_pipe(folder.path / "fifo");
+#ifndef _WIN32
+    REQUIRE(fs::is_fifo(folder.path / "fifo"));
+#endif
     ModelFolder model(folder.path.string());
 
     CHECK(model.read("a.bin", 100)->size() == 3);

@@ -53,6 +53,8 @@ TEST_CASE("write file on Windows: what a killed process left is removed after an
     CHECK(write(folder / "a.png"));
     CHECK(!fs::exists(dead));
     CHECK(fs::exists(fresh));
+    CHECK(platform::may_be_running(platform::process_id()));
+    CHECK(!platform::may_be_running(99999998));
     CHECK(fs::exists(other));
     fs::remove_all(folder);
 }

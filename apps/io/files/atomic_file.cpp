@@ -130,7 +130,10 @@ int write_in_place(const std::string& path, std::span<const std::uint8_t> bytes,
 std::string temporary_name(const std::string& target) {
     const std::string directory = target.substr(0, platform::last_separator(target) + 1);  // npos + 1 is 0
     // A name may be 255 bytes long; what is added here takes up to 30 of them.
-    const std::string name = target.substr(directory.size()).substr(0, 220);
+    std::string name = target.substr(directory.size());
+    std::size_t bytes = std::min<std::size_t>(name.size(), 220);
+    while (bytes > 0 && bytes < name.size() && (name[bytes] & 0xc0) == 0x80) --bytes;  // a letter stays whole
+    name.resize(bytes);
     return directory + "." + name + ".halflit-" + std::to_string(platform::process_id()) + ".tmp";
 }
 
@@ -222,7 +225,7 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
     } else {
         error = platform::may_write(path);  // a file that may not be written is not replaced either
         if (error == 0) {
-            const std::string target = platform::real_path(path);
+            const std::string target = platform::is_link(path) ? platform::real_path(path) : path;
             if (target.empty()) return system_error(path, errno);
             error = replace_file(target, bytes, old.mode, true);
         }

@@ -56,7 +56,7 @@ std::string normalised(std::string_view path) {
         folder = folder || slash + 1 == path.size();
         at = slash + 1;
     }
-    std::string out = is_absolute ? "/" : "";
+    std::string out(is_absolute ? platform::root_of(path) : "");
     for (std::size_t i = 0; i < parts.size(); ++i) out.append(i == 0 ? "" : "/").append(parts[i]);
     if (folder && !parts.empty() && parts.back() != "..") out += '/';
     return out;

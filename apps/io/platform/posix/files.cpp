@@ -70,6 +70,8 @@ std::string with_slashes(std::string path) { return path; }
 
 std::string_view fault_of_path(std::string_view /*path*/) { return {}; }
 
+std::string_view root_of(std::string_view /*path*/) { return "/"; }
+
 bool is_absolute(std::string_view path) { return path.starts_with('/'); }
 
 std::size_t last_separator(std::string_view path) { return path.rfind('/'); }

@@ -1,8 +1,11 @@
+// A file's status as POSIX tells it.
 #pragma once
 
 #include "apps/io/platform/files.hpp"
 
 #include <sys/stat.h>
+
+#include <algorithm>
 
 namespace halflit::platform {
 
@@ -19,7 +22,8 @@ inline FileStatus to_status(const struct stat& info) {
 #else
     const timespec& changed = info.st_mtim;
 #endif
-    status.changed_ns = std::int64_t{changed.tv_sec} * 1'000'000'000 + changed.tv_nsec;
+    constexpr std::int64_t kMost = 9'000'000'000;  // seconds that int64 holds as nanoseconds, until the year 2255
+    status.changed_ns = std::clamp<std::int64_t>(changed.tv_sec, -kMost, kMost) * 1'000'000'000 + changed.tv_nsec;
     status.mode = static_cast<unsigned>(info.st_mode) & 0777;
     return status;
 }

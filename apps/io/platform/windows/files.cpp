@@ -18,8 +18,6 @@
 namespace halflit::platform {
 namespace {
 
-constexpr DWORD kShareAll = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-
 /// Opens a file or folder for what it is, not for what it holds. It follows links.
 Handle open_to_ask(const std::string& path) {
     const std::wstring name = wide_path(path);
@@ -29,8 +27,6 @@ Handle open_to_ask(const std::string& path) {
     if (!file.is_open()) set_errno();
     return file;
 }
-
-constexpr std::int64_t kTickNs = 100;  // of a FILETIME
 
 std::int64_t now_ns() {
     FILETIME now{};
@@ -71,6 +67,11 @@ std::int64_t age_ns(const FileStatus& status) {
 }
 
 int status_of(const std::string& path, FileStatus& status) {
+    if (with_slashes(path).starts_with("//./pipe/")) {  // to open it would be to use it
+        status = {};
+        status.kind = FileKind::pipe;
+        return 0;
+    }
     const Handle file = open_to_ask(path);
     return file.is_open() ? status_of(file.get(), status) : errno;
 }
@@ -109,12 +110,17 @@ std::string whole_path(const std::string& path) {
     // Of a path that is not there, the longest part that is.
     fs::path there = whole, rest;
     for (;;) {
-        if (const std::string real = real_path(narrow(there.native())); !real.empty()) {
+        const std::string name = narrow(there.native());
+        if (const std::string real = real_path(name); !real.empty()) {
             const fs::path made = rest.empty() ? fs::path(wide(real)) : fs::path(wide(real)) / rest;
             return plain_path(made.native());
         }
-        if (!there.has_relative_path()) return plain_path(whole.native());
-        if (const fs::path name = there.filename(); !name.empty()) rest = rest.empty() ? name : name / rest;
+        // What is there and cannot be told, as a link to a volume without a letter, could lead anywhere.
+        const int error = errno;
+        const bool is_missing = (error == ENOENT || error == ENOTDIR) && !is_link(name);
+        errno = error;
+        if (!is_missing || !there.has_relative_path()) return {};
+        if (const fs::path last = there.filename(); !last.empty()) rest = rest.empty() ? last : last / rest;
         there = there.parent_path();
     }
 }
@@ -135,8 +141,10 @@ std::string with_slashes(std::string path) {
 std::string_view fault_of_path(std::string_view path) {
     if (path.starts_with("//")) return "names of computers and devices are not allowed";
     const bool has_drive = path.size() > 2 && path[1] == ':' && path[2] == '/' && std::isalpha(static_cast<unsigned char>(path[0])) != 0;
-    return fault_of_parts(has_drive ? path.substr(2) : path);
+    return fault_of_name(has_drive ? path.substr(2) : path);
 }
+
+std::string_view root_of(std::string_view path) { return path.starts_with("//") ? "//" : "/"; }
 
 bool is_absolute(std::string_view path) {
     const auto is_separator = [](char c) { return c == '/' || c == '\\'; };

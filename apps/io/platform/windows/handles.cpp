@@ -8,14 +8,10 @@
 namespace halflit::platform {
 namespace {
 
-HANDLE native(NativeHandle handle) { return reinterpret_cast<HANDLE>(handle); }
-
-constexpr DWORD kShare = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-
 Handle open(const std::string& path, DWORD access, DWORD how, DWORD flags) {
     const std::wstring name = wide_path(path);
     if (name.empty()) return {};
-    Handle file(reinterpret_cast<NativeHandle>(CreateFileW(name.c_str(), access, kShare, nullptr, how, flags, nullptr)));
+    Handle file(reinterpret_cast<NativeHandle>(CreateFileW(name.c_str(), access, kShareAll, nullptr, how, flags, nullptr)));
     if (!file.is_open()) set_errno();
     return file;
 }
@@ -52,7 +48,6 @@ int status_of(NativeHandle handle, FileStatus& status) {
     BY_HANDLE_FILE_INFORMATION info{};
     if (!GetFileInformationByHandle(native(handle), &info)) return set_errno();
     const auto joined = [](DWORD high, DWORD low) { return std::uint64_t{high} << 32 | low; };
-    constexpr std::uint64_t kTickNs = 100;  // of a FILETIME
     status.kind = (info.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0 ? FileKind::folder : FileKind::file;
     status.bytes = joined(info.nFileSizeHigh, info.nFileSizeLow);
     status.id = {info.dwVolumeSerialNumber, joined(info.nFileIndexHigh, info.nFileIndexLow)};

@@ -1,5 +1,7 @@
 #include "apps/io/platform/windows/names.hpp"
 
+#include "apps/io/platform/handles.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -33,12 +35,12 @@ std::string_view fault_of_part(std::string_view part) {
         return c < 0x20 || std::string_view("<>\"|?*").find(static_cast<char>(c)) != std::string_view::npos;
     };
     if (std::any_of(part.begin(), part.end(), is_reserved)) return "holds a character that Windows does not allow in names";
-    if (part.ends_with('.') || part.ends_with(' ')) return "names that end in a point or a space are not allowed on Windows";
+    if (part.ends_with('.') || part.ends_with(' ')) return "names that end in a dot or a space are not allowed on Windows";
     if (is_device(part)) return "names a device of Windows";
     return {};
 }
 
-std::string_view fault_of_parts(std::string_view name) {
+std::string_view fault_of_name(std::string_view name) {
     for (std::size_t at = 0; at < name.size();) {
         const std::size_t slash = std::min(name.find('/', at), name.size());
         if (const std::string_view fault = fault_of_part(name.substr(at, slash - at)); !fault.empty()) return fault;

@@ -10,8 +10,6 @@
 namespace halflit::platform {
 namespace {
 
-HANDLE to_native(NativeHandle handle) { return reinterpret_cast<HANDLE>(handle); }
-
 /// Opens one entry of an open folder by the kernel's own call, which knows no current folder, no drives, no devices and no "..".
 /// through_links: otherwise a link itself is opened. Not open with errno.
 Handle open_entry(NativeHandle folder, std::string_view name, bool is_folder, bool through_links) {
@@ -21,14 +19,13 @@ Handle open_entry(NativeHandle folder, std::string_view name, bool is_folder, bo
     wide_name.Buffer = text.data();
     wide_name.Length = wide_name.MaximumLength = static_cast<USHORT>(std::min<std::size_t>(text.size(), 32000) * sizeof(wchar_t));
     OBJECT_ATTRIBUTES attributes{};
-    InitializeObjectAttributes(&attributes, &wide_name, OBJ_CASE_INSENSITIVE, to_native(folder), nullptr);
+    InitializeObjectAttributes(&attributes, &wide_name, OBJ_CASE_INSENSITIVE, native(folder), nullptr);
     IO_STATUS_BLOCK status{};
     HANDLE made = nullptr;
     constexpr ULONG kToRead = FILE_READ_DATA | FILE_READ_ATTRIBUTES | SYNCHRONIZE;
     const ULONG options =
         FILE_SYNCHRONOUS_IO_NONALERT | (is_folder ? FILE_DIRECTORY_FILE : 0) | (through_links ? 0 : FILE_OPEN_REPARSE_POINT);
-    const NTSTATUS result = NtCreateFile(&made, kToRead, &attributes, &status, nullptr, 0,
-                                         FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, FILE_OPEN, options, nullptr, 0);
+    const NTSTATUS result = NtCreateFile(&made, kToRead, &attributes, &status, nullptr, 0, kShareAll, FILE_OPEN, options, nullptr, 0);
     if (result < 0) {
         errno = errno_of(RtlNtStatusToDosError(result));
         return {};
@@ -42,9 +39,9 @@ enum class Reparse { none, link, own_contents };
 
 Reparse reparse_of(NativeHandle file) {
     FILE_ATTRIBUTE_TAG_INFO info{};
-    if (!GetFileInformationByHandleEx(to_native(file), FileAttributeTagInfo, &info, sizeof info)) {
+    if (!GetFileInformationByHandleEx(native(file), FileAttributeTagInfo, &info, sizeof info)) {
         BY_HANDLE_FILE_INFORMATION plain{};
-        if (!GetFileInformationByHandle(to_native(file), &plain)) return Reparse::link;
+        if (!GetFileInformationByHandle(native(file), &plain)) return Reparse::link;
         return (plain.dwFileAttributes & FILE_ATTRIBUTE_REPARSE_POINT) != 0 ? Reparse::link : Reparse::none;
     }
     if ((info.FileAttributes & FILE_ATTRIBUTE_REPARSE_POINT) == 0) return Reparse::none;
@@ -53,7 +50,7 @@ Reparse reparse_of(NativeHandle file) {
 
 /// Both by the system's own spelling. A file that lies elsewhere on the disk has another beginning.
 bool lies_in(NativeHandle file, NativeHandle folder) {
-    std::wstring inside = final_path(to_native(file)), outside = final_path(to_native(folder));
+    std::wstring inside = final_path(native(file)), outside = final_path(native(folder));
     if (inside.empty() || outside.empty()) return false;
     if (!outside.ends_with(L'\\')) outside += L'\\';
     return inside.starts_with(outside);
@@ -61,11 +58,9 @@ bool lies_in(NativeHandle file, NativeHandle folder) {
 
 }  // namespace
 
-std::string_view fault_of_name(std::string_view relative) { return fault_of_parts(relative); }
-
 Handle open_beneath(NativeHandle folder, const std::string& relative) {
     HANDLE copy = nullptr;
-    if (!DuplicateHandle(GetCurrentProcess(), to_native(folder), GetCurrentProcess(), &copy, 0, FALSE, DUPLICATE_SAME_ACCESS)) {
+    if (!DuplicateHandle(GetCurrentProcess(), native(folder), GetCurrentProcess(), &copy, 0, FALSE, DUPLICATE_SAME_ACCESS)) {
         set_errno();
         return {};
     }

@@ -6,6 +6,7 @@
 #include <shellapi.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <memory>
@@ -17,6 +18,8 @@ void (*words_before_end)(int) = nullptr;
 
 /// Runs on a thread that Windows starts. Windows ends the process some seconds after the terminal was closed, whatever happens here.
 BOOL WINAPI end_by_control(DWORD control) {
+    static std::atomic<bool> has_begun{false};
+    if (has_begun.exchange(true)) Sleep(INFINITE);  // the first call ends the process
     const int signal = control == CTRL_C_EVENT || control == CTRL_BREAK_EVENT ? SIGINT : SIGTERM;
     words_before_end(signal);
     TerminateProcess(GetCurrentProcess(), static_cast<UINT>(128 + signal));

@@ -1,6 +1,9 @@
-// Texts of Windows, and its errors as errno.
+// Texts and handles of Windows, and its errors as errno.
 #pragma once
 
+#include "apps/io/platform/handles.hpp"
+
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -21,6 +24,12 @@ namespace halflit::platform {
 [[nodiscard]] std::string plain_path(std::wstring path);
 /// The path of an open file without links; empty with errno.
 [[nodiscard]] std::wstring final_path(HANDLE file);
+
+[[nodiscard]] inline HANDLE native(NativeHandle handle) { return reinterpret_cast<HANDLE>(handle); }
+
+/// Others may read, write, rename and delete a file that is open here.
+inline constexpr DWORD kShareAll = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+inline constexpr std::int64_t kTickNs = 100;  ///< of a FILETIME
 
 [[nodiscard]] int errno_of(DWORD error);
 /// Sets errno to what GetLastError() tells, and returns it.
