@@ -1,4 +1,5 @@
 // KHR_draco_mesh_compression: streams of the library's encoder, compared with the meshes that they were made from.
+#include "apps/io/files/optional_libraries.hpp"
 #include "tests/io/gltf_builder.hpp"
 #include "tests/io/picture_difference.hpp"
 #include "tests/support/assets.hpp"
