@@ -141,7 +141,7 @@ std::string with_slashes(std::string path) {
 std::string_view fault_of_path(std::string_view path) {
     if (path.starts_with("//")) return "names of computers and devices are not allowed";
     const bool has_drive = path.size() > 2 && path[1] == ':' && path[2] == '/' && std::isalpha(static_cast<unsigned char>(path[0])) != 0;
-    return fault_of_name(has_drive ? path.substr(2) : path);
+    return fault_of_parts(has_drive ? path.substr(2) : path);
 }
 
 std::string_view root_of(std::string_view path) { return path.starts_with("//") ? "//" : "/"; }

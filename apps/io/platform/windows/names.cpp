@@ -1,7 +1,5 @@
 #include "apps/io/platform/windows/names.hpp"
 
-#include "apps/io/platform/handles.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -55,7 +53,7 @@ std::string_view fault_of_part(std::string_view part) {
     return {};
 }
 
-std::string_view fault_of_name(std::string_view name) {
+std::string_view fault_of_parts(std::string_view name) {
     for (std::size_t at = 0; at < name.size();) {
         const std::size_t slash = std::min(name.find('/', at), name.size());
         if (const std::string_view fault = fault_of_part(name.substr(at, slash - at)); !fault.empty()) return fault;

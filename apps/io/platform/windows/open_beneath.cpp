@@ -58,6 +58,8 @@ bool lies_in(NativeHandle file, NativeHandle folder) {
 
 }  // namespace
 
+std::string_view fault_of_name(std::string_view relative) { return fault_of_parts(relative); }
+
 Handle open_beneath(NativeHandle folder, const std::string& relative) {
     HANDLE copy = nullptr;
     if (!DuplicateHandle(GetCurrentProcess(), native(folder), GetCurrentProcess(), &copy, 0, FALSE, DUPLICATE_SAME_ACCESS)) {
