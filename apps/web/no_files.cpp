@@ -10,13 +10,9 @@
 #include <cerrno>
 #include <cstring>
 
-namespace halflit::io {
+namespace halflit::platform {
 
 std::string errno_text(int error) { return std::strerror(error); }
-
-}  // namespace halflit::io
-
-namespace halflit::platform {
 
 std::size_t last_separator(std::string_view path) { return path.rfind('/'); }
 

@@ -11,24 +11,6 @@ namespace halflit::test {
 
 [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, const RunSettings& settings = {});
 
-/// A new folder that is removed with the object.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).generic_string(); }
-    [[nodiscard]] std::string path() const { return path_.generic_string(); }
-    /// Names of all files in it, hidden ones too, sorted.
-    [[nodiscard]] std::vector<std::string> names() const;
-
-private:
-    std::filesystem::path path_;
-};
-
-[[nodiscard]] std::string contents(const std::string& path);
 void write_contents(const std::string& path, const std::string& text);
 
 struct Picture {

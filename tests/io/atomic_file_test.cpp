@@ -21,21 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-    fs::path path = new_folder();
-    Folder() = default;
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] std::string file(const std::string& name) const { return platform::to_name(path) + "/" + name; }
-    [[nodiscard]] std::size_t entries() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-    }
-};
-
 Result<void> write(const std::string& path, std::string_view text) {
     return write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
@@ -49,21 +34,21 @@ std::string text_of(const std::string& path) {
 }  // namespace
 
 TEST_CASE("write file: a new file and one that is replaced have the bytes, and nothing else is left", "[io]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string name : {"a.png", "\xC3\xA9\xE4\xBD\xA0\xF0\x9F\x8E\xA8.png", "with space"}) {
         INFO(name);
-        const std::size_t before = folder.entries();
+        const std::size_t before = folder.names().size();
         for (const std::string text : {"first", "", "the second\r\n\x1a is longer\n"}) {
             REQUIRE(write(folder.file(name), text));
             CHECK(text_of(folder.file(name)) == text);
-            CHECK(folder.entries() == before + 1);
+            CHECK(folder.names().size() == before + 1);
         }
     }
 }
 
 TEST_CASE("write file: who reads the old file while it is replaced reads it to its end", "[io]") {
     if (!abilities().replaces_open_files) HALFLIT_SKIP("files that are open are not replaced here");
-    const Folder folder;
+    const TemporaryFolder folder;
     REQUIRE(write(folder.file("a"), "the old one"));
     const platform::Handle old = platform::open_to_read(folder.file("a"));
     REQUIRE(old.is_open());
@@ -76,7 +61,7 @@ TEST_CASE("write file: who reads the old file while it is replaced reads it to i
 }
 
 TEST_CASE("write file: a path of more than 260 letters is written and read", "[io]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string name;
     for (int i = 0; i < 12; ++i) name += (i == 0 ? "" : "/") + std::string(30, static_cast<char>('a' + i));
     std::error_code error;
@@ -96,8 +81,8 @@ TEST_CASE("write file: a path of more than 260 letters is written and read", "[i
 }
 
 TEST_CASE("write file: a folder, and a file in a folder that is not there, are io errors that name the path", "[io]") {
-    const Folder folder;
-    for (const std::string& path : {folder.file(""), platform::to_name(folder.path), folder.file("none/a.png")}) {
+    const TemporaryFolder folder;
+    for (const std::string& path : {folder.file(""), folder.path(), folder.file("none/a.png")}) {
         INFO(path);
         const auto written = write(path, "x");
         REQUIRE(!written);
@@ -105,5 +90,5 @@ TEST_CASE("write file: a folder, and a file in a folder that is not there, are i
         CHECK(written.error().message.starts_with(path));
     }
     CHECK(!write("", "x"));
-    CHECK(folder.entries() == 0);
+    CHECK(folder.names().size() == 0);
 }

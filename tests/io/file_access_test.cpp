@@ -8,32 +8,11 @@
 #include "tests/support/system.hpp"
 
 #include <filesystem>
-#include <fstream>
 
 using namespace halflit;
 using namespace halflit::io;
 using namespace halflit::test;
 namespace fs = std::filesystem;
-
-namespace {
-
-/// A folder of its own for a test, removed at its end.
-struct TemporaryFolder {
-    fs::path path = new_folder();
-    TemporaryFolder() = default;
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    void write(const std::string& name, std::string_view text) const {
-        fs::create_directories((path / name).parent_path());
-        std::ofstream(path / name, std::ios::binary) << text;
-    }
-};
-
-}  // namespace
 
 TEST_CASE("model folder: files below it are read, whatever leads elsewhere is not", "[io]") {
     const TemporaryFolder outside, folder;
@@ -41,20 +20,20 @@ TEST_CASE("model folder: files below it are read, whatever leads elsewhere is no
     folder.write("a.bin", "abc");
     folder.write("sub/with space.bin", "defg");
     // Where the system makes none, these names lead nowhere.
-    (void)make_link(outside.path / "secret.bin", folder.path / "link.bin");
-    (void)make_link(outside.path, folder.path / "linked-folder");
-    (void)make_pipe(folder.path / "fifo");
+    (void)make_link(outside / "secret.bin", folder / "link.bin");
+    (void)make_link(outside.path(), folder / "linked-folder");
+    (void)make_pipe(folder / "fifo");
 #ifndef _WIN32
-    REQUIRE(fs::is_fifo(folder.path / "fifo"));
+    REQUIRE(fs::is_fifo(folder / "fifo"));
 #endif
-    ModelFolder model(folder.path.string());
+    ModelFolder model(folder.path());
 
     CHECK(model.read("a.bin", 100)->size() == 3);
     CHECK(model.read("sub/with space.bin", 100)->size() == 4);
     CHECK(model.read("./sub/../a.bin", 100)->size() == 3);
-    const std::string up = "../" + outside.path.filename().string() + "/secret.bin";
+    const std::string up = "../" + fs::path(outside.path()).filename().string() + "/secret.bin";
     for (const std::string& name :
-         {up, std::string("sub/../../") + outside.path.filename().string() + "/secret.bin", (outside.path / "secret.bin").string(),
+         {up, std::string("sub/../../") + fs::path(outside.path()).filename().string() + "/secret.bin", outside.file("secret.bin"),
           std::string("link.bin"), std::string("linked-folder/secret.bin"), std::string("fifo"), std::string("sub"), std::string("."),
           std::string(""), std::string("missing.bin"), std::string("a.bin/"), std::string("sub\\with space.bin"), std::string("a.bin\0", 6),
           std::string("/dev/zero"), std::string(5000, 'x')}) {
@@ -66,7 +45,7 @@ TEST_CASE("model folder: files below it are read, whatever leads elsewhere is no
     CHECK(model.read("a.bin", 2).error().code == ErrorCode::limit);
     CHECK(ModelFolder().read("a.bin", 100).error().code == ErrorCode::bad_input);
 
-    ModelFolder wider(folder.path.string(), {outside.path.string()});
+    ModelFolder wider(folder.path(), {outside.path()});
     CHECK(wider.read("secret.bin", 100)->size() == 6);
     CHECK(wider.read("a.bin", 100)->size() == 3);
 }
@@ -79,15 +58,15 @@ TEST_CASE("model folder: a name may lead into a folder that is allowed, and into
     root.write("textures/deep/y.png", "deeper");
     root.write("textures-of-others/x.png", "secret");
     root.write("secret.bin", "secret");
-    const std::string models = (root.path / "models").string(), textures = (root.path / "textures").string();
-    REQUIRE(make_link(root.path / "secret.bin", root.path / "textures/out.png"));
-    REQUIRE(make_link(root.path, root.path / "textures/up"));
-    REQUIRE(make_link("deep/y.png", root.path / "textures/inner.png"));
-    REQUIRE(make_link(root.path / "textures", root.path / "models/linked"));
-    REQUIRE(make_link(root.path / "textures", root.path / "other-name"));
-    REQUIRE(make_link(root.path / "models", root.path / "linked-models"));
+    const std::string models = root.file("models"), textures = root.file("textures");
+    REQUIRE(make_link(root / "secret.bin", root / "textures/out.png"));
+    REQUIRE(make_link(root.path(), root / "textures/up"));
+    REQUIRE(make_link("deep/y.png", root / "textures/inner.png"));
+    REQUIRE(make_link(root / "textures", root / "models/linked"));
+    REQUIRE(make_link(root / "textures", root / "other-name"));
+    REQUIRE(make_link(root / "models", root / "linked-models"));
 
-    for (const std::string& given : {textures, textures + "/", models + "/../textures", (root.path / "other-name").string()}) {
+    for (const std::string& given : {textures, textures + "/", models + "/../textures", root.file("other-name")}) {
         INFO(given);
         ModelFolder folder(models, {given});
         CHECK(folder.check());
@@ -110,8 +89,8 @@ TEST_CASE("model folder: a name may lead into a folder that is allowed, and into
             CHECK(read.error().code == ErrorCode::bad_input);
         }
     }
-    CHECK(ModelFolder(models, {(root.path / "other-name").string()}).read("../other-name/x.png", 100)->size() == 7);
-    CHECK(ModelFolder((root.path / "linked-models").string(), {textures}).read("../textures/x.png", 100)->size() == 7);
+    CHECK(ModelFolder(models, {root.file("other-name")}).read("../other-name/x.png", 100)->size() == 7);
+    CHECK(ModelFolder(root.file("linked-models"), {textures}).read("../textures/x.png", 100)->size() == 7);
     CHECK(!ModelFolder(models).read("../textures/x.png", 100));
     CHECK(ModelFolder(models).read("../models/a.bin", 100)->size() == 3);
 }
@@ -122,7 +101,7 @@ TEST_CASE("model folder: without links, a name leads up and into a folder that i
     root.write("textures/deep/x.png", "texture");
     root.write("textures-of-others/x.png", "secret");
     root.write("secret.bin", "secret");
-    const std::string models = (root.path / "models").string(), textures = (root.path / "textures").string();
+    const std::string models = root.file("models"), textures = root.file("textures");
     for (const std::string& given : {textures, textures + "/", models + "/../textures"}) {
         INFO(given);
         ModelFolder folder(models, {given});
@@ -146,16 +125,16 @@ TEST_CASE("model folder: without links, a name leads up and into a folder that i
 TEST_CASE("model folder: an allowed folder that is not there is an error that names it", "[io]") {
     const TemporaryFolder root;
     root.write("file.bin", "abc");
-    for (const std::string& missing : {(root.path / "none").string(), (root.path / "file.bin").string(), std::string()}) {
-        ModelFolder folder(root.path.string(), {root.path.string(), missing});
+    for (const std::string& missing : {root.file("none"), root.file("file.bin"), std::string()}) {
+        ModelFolder folder(root.path(), {root.path(), missing});
         REQUIRE(!folder.check());
         CHECK(folder.check().error().code == ErrorCode::usage);
         CHECK(folder.check().error().message.find("\"" + missing + "\"") != std::string::npos);
     }
     LoadOptions options;
-    options.allow_external = {(root.path / "none").string()};
+    options.allow_external = {root.file("none")};
     root.write("model.gltf", R"({"asset":{"version":"2.0"}})");
-    const auto loaded = load_gltf((root.path / "model.gltf").string(), options);
+    const auto loaded = load_gltf(root.file("model.gltf"), options);
     REQUIRE(!loaded);
     CHECK(loaded.error().code == ErrorCode::usage);
     CHECK(loaded.error().message.find(options.allow_external[0]) != std::string::npos);
@@ -164,13 +143,13 @@ TEST_CASE("model folder: an allowed folder that is not there is an error that na
 TEST_CASE("read file: errors of the file system are io errors", "[io]") {
     const TemporaryFolder folder;
     folder.write("a.bin", "abc");
-    CHECK(read_file((folder.path / "a.bin").string())->size() == 3);
-    CHECK(read_file((folder.path / "none.bin").string()).error().code == ErrorCode::io);
-    CHECK(read_file(folder.path.string()).error().code == ErrorCode::io);
-    CHECK(read_file("/dev/null").error().code == ErrorCode::io);  // on Windows there is none
-    CHECK(read_file("NUL").error().code == ErrorCode::io);        // elsewhere there is none
-    CHECK(read_file((folder.path / "a.bin").string() + std::string("\0.bin", 5)).error().code == ErrorCode::io);  // not a.bin
-    CHECK(read_file((folder.path / "a.bin").string(), 2).error().code == ErrorCode::limit);
+    CHECK(read_file(folder.file("a.bin"))->size() == 3);
+    CHECK(read_file(folder.file("none.bin")).error().code == ErrorCode::io);
+    CHECK(read_file(folder.path()).error().code == ErrorCode::io);
+    CHECK(read_file("/dev/null").error().code == ErrorCode::io);                                      // on Windows there is none
+    CHECK(read_file("NUL").error().code == ErrorCode::io);                                            // elsewhere there is none
+    CHECK(read_file(folder.file("a.bin") + std::string("\0.bin", 5)).error().code == ErrorCode::io);  // not a.bin
+    CHECK(read_file(folder.file("a.bin"), 2).error().code == ErrorCode::limit);
 }
 
 TEST_CASE("uri: data URIs decode as RFC 4648 says, and broken ones are refused", "[io]") {

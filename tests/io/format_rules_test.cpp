@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
 using namespace halflit;
@@ -84,7 +83,8 @@ TEST_CASE("PLY: vertices without faces are points, lit if they have normals", "[
 }
 
 TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
-    const std::string name = new_folder().string();
+    const TemporaryFolder files;
+    const std::string name = files.path();
     PngSpec spec;
     spec.width = spec.height = 2, spec.color_type = 2;
     const auto write_picture = [&](const char* file, auto sample) {
@@ -106,7 +106,6 @@ TEST_CASE("OBJ: materials of an MTL file become halflit's", "[io]") {
     const auto loaded = load_with("usemtl shiny\nf 1/1 2/1 3/1\nusemtl metal\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl none\nf 1 2 3\n");
     const auto refused = load_with("usemtl secret\nf 1 2 3\n");
     const auto textured = load_with("usemtl picture\nf 1/1 2/1 3/1\nusemtl heights\nf 1/1 2/1 3/1\n");
-    std::filesystem::remove_all(name);
     REQUIRE(loaded);
     const auto& materials = loaded->scene.materials;
     REQUIRE(materials.size() == 4);

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
 using namespace halflit;
@@ -32,7 +31,8 @@ std::array<std::uint16_t, 4> texel_at(const Scene& scene, const TextureUse& use,
 }  // namespace
 
 TEST_CASE("MTL: masks, roughness and metalness in pictures of their own are drawn, and BMP and TGA are read", "[io]") {
-    const std::string folder = new_folder().string();
+    const TemporaryFolder files;
+    const std::string folder = files.path();
     write_picture(folder + "/color.tga", 2, {{255, 0, 0, 255}, {0, 255, 0, 255}});
     write_picture(folder + "/mask.bmp", 1, {{51, 51, 51, 255}});
     write_picture(folder + "/mask.png", 2, {{255, 255, 255, 102}, {255, 255, 255, 204}});
@@ -53,7 +53,6 @@ TEST_CASE("MTL: masks, roughness and metalness in pictures of their own are draw
     const auto loaded = load_with({"grey", "clear", "metal", "rough", "tinted"});
     const auto refused = load_with({"lost"}, strictly());
     const auto lost = load_with({"lost"});
-    std::filesystem::remove_all(folder);
     REQUIRE(loaded);
     const Scene& scene = loaded->scene;
     REQUIRE(scene.materials.size() == 5);

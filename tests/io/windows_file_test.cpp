@@ -26,7 +26,8 @@ Result<void> write(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("write file on Windows: a file that is marked as read only is not replaced", "[io][windows]") {
-    const fs::path folder = new_folder(), file = folder / "a.png";
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.png";
     std::ofstream(file) << "old";
     fs::permissions(file, fs::perms::owner_write, fs::perm_options::remove);
     CHECK(!write(file));
@@ -34,12 +35,11 @@ TEST_CASE("write file on Windows: a file that is marked as read only is not repl
     fs::permissions(file, fs::perms::owner_write, fs::perm_options::add);
     CHECK(write(file));
     CHECK(fs::file_size(file) == 1);
-    fs::remove_all(folder);
 }
 
 TEST_CASE("write file on Windows: what a killed process left is removed after an hour, and what a living one writes is not",
           "[io][windows]") {
-    const fs::path folder = new_folder();
+    const TemporaryFolder folder;
     const auto left = [&](const std::string& process, int hours) {
         const fs::path path = folder / (".a.png.halflit-" + process + ".tmp");
         std::ofstream(path) << "half";
@@ -56,7 +56,6 @@ TEST_CASE("write file on Windows: what a killed process left is removed after an
     CHECK(platform::may_be_running(platform::process_id()));
     CHECK(!platform::may_be_running(99999998));
     CHECK(fs::exists(other));
-    fs::remove_all(folder);
 }
 
 TEST_CASE("paths on Windows: separators, drives and what is no file of this machine", "[io][windows]") {
@@ -78,15 +77,14 @@ TEST_CASE("paths on Windows: separators, drives and what is no file of this mach
 }
 
 TEST_CASE("paths on Windows: the whole path has the disk's own letters, also of what is not there", "[io][windows]") {
-    const fs::path folder = new_folder();
+    const TemporaryFolder folder;
     fs::create_directory(folder / "Sub");
-    const std::string top = platform::real_path(platform::to_name(folder));
-    CHECK(platform::whole_path(platform::to_name(folder / "sub")) == top + "/Sub");
-    CHECK(platform::whole_path(platform::to_name(folder / "sub" / ".." / "SUB" / "none" / "x.png")) == top + "/Sub/none/x.png");
+    const std::string top = platform::real_path(folder.path());
+    CHECK(platform::whole_path(folder.file("sub")) == top + "/Sub");
+    CHECK(platform::whole_path(folder.file("sub/../SUB/none/x.png")) == top + "/Sub/none/x.png");
     platform::FileStatus first, second;
-    CHECK(platform::status_of(platform::to_name(folder / "sub"), first) == 0);
-    CHECK(platform::status_of(platform::to_name(folder / "SUB"), second) == 0);
+    CHECK(platform::status_of(folder.file("sub"), first) == 0);
+    CHECK(platform::status_of(folder.file("SUB"), second) == 0);
     CHECK(first.id == second.id);
-    CHECK(platform::status_of(platform::to_name(folder / "none"), first) == ENOENT);
-    fs::remove_all(folder);
+    CHECK(platform::status_of(folder.file("none"), first) == ENOENT);
 }

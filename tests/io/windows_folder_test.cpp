@@ -1,14 +1,12 @@
 // A model's folder on Windows: names that lead elsewhere there.
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/platform/files.hpp"
-#include "apps/io/platform/paths.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/support/system.hpp"
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 using namespace halflit;
@@ -16,34 +14,11 @@ using namespace halflit::io;
 using namespace halflit::test;
 namespace fs = std::filesystem;
 
-namespace {
-
-struct Folder {
-    fs::path path = new_folder();
-    Folder() = default;
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    void write(const std::string& name, std::string_view text) const {
-        const fs::path file = path / platform::to_path(name);
-        fs::create_directories(file.parent_path());
-        std::ofstream(file, std::ios::binary) << text;
-        REQUIRE(fs::file_size(file) == text.size());
-    }
-    [[nodiscard]] std::string name() const { return platform::to_name(path); }
-};
-
-}  // namespace
-
 TEST_CASE("model folder on Windows: devices, streams, drives, other computers and changed names are refused as such", "[io][windows]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.bin", "abc");
     folder.write("sub/b.bin", "abc");
-    ModelFolder model(folder.name());
+    ModelFolder model(folder.path());
     REQUIRE(model.read("a.bin", 100));
     for (const std::string& name : std::vector<std::string>{"CON",
                                                             "con.txt",
@@ -63,7 +38,7 @@ TEST_CASE("model folder on Windows: devices, streams, drives, other computers an
                                                             "C:a.bin",
                                                             "C:/windows/win.ini",
                                                             "c:",
-                                                            folder.name() + "/a.bin",
+                                                            folder.path() + "/a.bin",
                                                             "//server/share/a.bin",
                                                             "//?/C:/windows/win.ini",
                                                             "//./pipe/x",
@@ -92,22 +67,22 @@ TEST_CASE("model folder on Windows: devices, streams, drives, other computers an
 }
 
 TEST_CASE("model folder on Windows: letters of another case and names in UTF-8 lead to the same file", "[io][windows]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("Sub/A.bin", "abc");
     folder.write("\xC3\xA9t\xC3\xA9/\xE4\xBD\xA0\xF0\x9F\x8E\xA8.bin", "defg");
-    ModelFolder model(folder.name());
+    ModelFolder model(folder.path());
     CHECK(model.read("sub/a.BIN", 100)->size() == 3);
     CHECK(model.read("\xC3\xA9t\xC3\xA9/\xE4\xBD\xA0\xF0\x9F\x8E\xA8.bin", 100)->size() == 4);
     CHECK(!model.read("\xC3\xA9t\xC3\xA9/\xFF.bin", 100));  // no UTF-8
-    CHECK(read_file(folder.name() + "/\xC3\xA9t\xC3\xA9/\xE4\xBD\xA0\xF0\x9F\x8E\xA8.bin")->size() == 4);
+    CHECK(read_file(folder.path() + "/\xC3\xA9t\xC3\xA9/\xE4\xBD\xA0\xF0\x9F\x8E\xA8.bin")->size() == 4);
 }
 
 TEST_CASE("model folder on Windows: the folder may be named with backslashes, and of the root of a drive nothing above it is read",
           "[io][windows]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("models/a.bin", "abc");
     folder.write("secret.bin", "secret");
-    ModelFolder model((folder.path / "models").string() + "\\");
+    ModelFolder model((folder / "models").string() + "\\");
     CHECK(model.read("a.bin", 100)->size() == 3);
     CHECK(model.read("../models/a.bin", 100)->size() == 3);
     CHECK(!model.read("../secret.bin", 100));
@@ -117,16 +92,17 @@ TEST_CASE("model folder on Windows: the folder may be named with backslashes, an
 }
 
 TEST_CASE("model folder on Windows: no junction and no symbolic link is followed, also where it stays inside", "[io][windows]") {
-    const Folder outside, folder;
+    const TemporaryFolder outside, folder;
     outside.write("secret.bin", "secret");
     folder.write("sub/a.bin", "abc");
-    const std::string line = "cmd /c mklink /J \"" + (folder.path / "door").string() + "\" \"" + outside.path.string() + "\" >NUL 2>&1";
+    const std::string line =
+        "cmd /c mklink /J \"" + (folder / "door").string() + "\" \"" + fs::path(outside.path()).make_preferred().string() + "\" >NUL 2>&1";
     (void)std::system(line.c_str());
-    const bool has_junction = platform::is_link((folder.path / "door").string());
-    const bool has_link = make_link(outside.path / "secret.bin", folder.path / "link.bin");
+    const bool has_junction = platform::is_link((folder / "door").string());
+    const bool has_link = make_link(outside / "secret.bin", folder / "link.bin");
     if (!has_junction && !has_link) HALFLIT_SKIP("this system makes neither junctions nor symbolic links");
-    (void)make_link("sub", folder.path / "inside");
-    ModelFolder model(folder.name(), {outside.name()});
+    (void)make_link("sub", folder / "inside");
+    ModelFolder model(folder.path(), {outside.path()});
     for (const char* name : {"door/secret.bin", "link.bin", "inside/a.bin", "sub/../link.bin"}) {
         INFO(name);
         CHECK(!model.read(name, 100));

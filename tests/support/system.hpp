@@ -7,13 +7,34 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace halflit::test {
 
-/// A new empty folder.
-[[nodiscard]] std::filesystem::path new_folder();
+/// A new folder that is removed with the object. Names are UTF-8, with '/' between folders.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] std::string path() const;
+    [[nodiscard]] std::string file(const std::string& name) const;
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const;
+    /// Names of all files in it, hidden ones too, sorted.
+    [[nodiscard]] std::vector<std::string> names() const;
+    /// Writes a file, and the folders that its name has.
+    void write(const std::string& name, std::string_view text) const;
+
+private:
+    std::filesystem::path path_;
+};
+
+/// A file's bytes; none where it cannot be read.
+[[nodiscard]] std::string contents(const std::filesystem::path& path);
 
 /// Makes a symbolic link to a file or folder. False where the system makes none: Windows without the right to, and wine.
 [[nodiscard]] bool make_link(const std::filesystem::path& target, const std::filesystem::path& link);

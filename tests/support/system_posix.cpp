@@ -12,8 +12,6 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 namespace halflit::test {
@@ -114,9 +112,8 @@ bool make_pipe(const std::filesystem::path& path) { return ::mkfifo(path.c_str()
 Abilities abilities() { return {true, true, true, true, true, true, true}; }
 
 Outcome run_program(const std::vector<std::string>& given, const RunSettings& settings) {
-    const std::filesystem::path folder = new_folder();
-    const auto file = [&](const char* name) { return (folder / name).string(); };
-    std::ofstream(file("in"), std::ios::binary) << settings.input;
+    const TemporaryFolder folder;
+    folder.write("in", settings.input);
     int pipe_ends[2] = {-1, -1};
     if (settings.hold_input_open) {
         REQUIRE(::pipe2(pipe_ends, O_CLOEXEC) == 0);
@@ -125,10 +122,10 @@ Outcome run_program(const std::vector<std::string>& given, const RunSettings& se
     std::optional<Terminal> terminal;
     if (settings.terminal_columns) terminal.emplace(*settings.terminal_columns);
     const auto output = [&](const char* name) {
-        return terminal ? ::dup(terminal->end()) : ::open(file(name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+        return terminal ? ::dup(terminal->end()) : ::open(folder.file(name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     };
-    const int streams[3] = {settings.hold_input_open ? pipe_ends[0] : ::open(file("in").c_str(), O_RDONLY | O_CLOEXEC), output("out"),
-                            output("err")};
+    const int streams[3] = {settings.hold_input_open ? pipe_ends[0] : ::open(folder.file("in").c_str(), O_RDONLY | O_CLOEXEC),
+                            output("out"), output("err")};
     std::vector<std::string> words = given;
     std::vector<char*> argv = argv_of(words);
     const pid_t child = ::fork();
@@ -138,13 +135,8 @@ Outcome run_program(const std::vector<std::string>& given, const RunSettings& se
     outcome.code = wait_for(child, settings, pipe_ends[0]);
     for (const int fd : {streams[0], streams[1], streams[2], pipe_ends[1]})
         if (fd >= 0) ::close(fd);
-    const auto contents = [&](const char* name) {
-        std::ifstream stream(file(name), std::ios::binary);
-        return std::string(std::istreambuf_iterator<char>(stream), {});
-    };
-    outcome.out = terminal ? terminal->text() : contents("out");
-    outcome.err = contents("err");
-    std::filesystem::remove_all(folder);
+    outcome.out = terminal ? terminal->text() : contents(folder / "out");
+    outcome.err = contents(folder / "err");
     return outcome;
 }
 

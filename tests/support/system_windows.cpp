@@ -1,21 +1,14 @@
+#include "apps/io/platform/windows/wide.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/system.hpp"
 
-#ifndef NOMINMAX
-#define NOMINMAX
-#endif
-#define WIN32_LEAN_AND_MEAN
-#include <windows.h>
-
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 namespace halflit::test {
 namespace {
 
-std::wstring wide(const std::string& text) { return std::filesystem::path(std::u8string(text.begin(), text.end())).native(); }
+using platform::kShareAll, platform::wide;
 
 /// The words as CommandLineToArgvW takes them apart again.
 std::wstring command_line(const std::vector<std::string>& words) {
@@ -71,8 +64,6 @@ HANDLE start(const std::vector<std::string>& words, const RunSettings& settings,
     return process.hProcess;
 }
 
-constexpr DWORD kShareAll = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-
 HANDLE inherited_file(const std::filesystem::path& path, bool is_input) {
     SECURITY_ATTRIBUTES inherited{sizeof inherited, nullptr, TRUE};
     const HANDLE file = CreateFileW(path.c_str(), is_input ? GENERIC_READ : GENERIC_WRITE, kShareAll, &inherited,
@@ -119,8 +110,8 @@ Abilities abilities() {
 Outcome run_program(const std::vector<std::string>& words, const RunSettings& settings) {
     REQUIRE(!settings.terminal_columns);
     REQUIRE(!settings.largest_file);
-    const std::filesystem::path folder = new_folder();
-    std::ofstream(folder / "in", std::ios::binary) << settings.input;
+    const TemporaryFolder folder;
+    folder.write("in", settings.input);
     std::optional<Pipe> held;
     if (settings.hold_input_open) {
         held.emplace(true);
@@ -143,14 +134,8 @@ Outcome run_program(const std::vector<std::string>& words, const RunSettings& se
     Outcome outcome;
     outcome.code = exit_code(process);
     if (held) CloseHandle(held->write);
-    const auto contents = [&](const char* name) {
-        std::ifstream stream(folder / name, std::ios::binary);
-        return std::string(std::istreambuf_iterator<char>(stream), {});
-    };
-    outcome.out = contents("out");
-    outcome.err = contents("err");
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
+    outcome.out = contents(folder / "out");
+    outcome.err = contents(folder / "err");
     return outcome;
 }
 

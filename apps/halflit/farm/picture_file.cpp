@@ -83,7 +83,7 @@ Result<void> take_part(const Shard& shard, OutputFormat format, Settings& settin
 
 Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many) {
     if (is_folder(options.output))
-        return fail(ErrorCode::io, options.output + ": " + io::errno_text(EISDIR) + " (-o " + options.output + "/ writes into it)");
+        return fail(ErrorCode::io, options.output + ": " + platform::errno_text(EISDIR) + " (-o " + options.output + "/ writes into it)");
     const auto format = options.picture_format();
     if (!format) return tl::unexpected(format.error());
     if (const auto checked = check_paths(options); !checked) return tl::unexpected(checked.error());

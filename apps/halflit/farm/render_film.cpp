@@ -109,7 +109,7 @@ private:
         for (const std::int64_t number : {whole_.first, whole_.last}) {
             const auto name = film_format_ ? Result<std::string>(output) : frame_name(output, options_.scene, options_.film, number);
             if (!name) return tl::unexpected(name.error());
-            if (is_folder(*name)) return fail(ErrorCode::io, *name + ": " + io::errno_text(EISDIR));
+            if (is_folder(*name)) return fail(ErrorCode::io, *name + ": " + platform::errno_text(EISDIR));
         }
         return {};
     }

@@ -106,7 +106,7 @@ public:
         work();
         for (std::thread& thread : others) thread.join();
         if (report_ != nullptr && std::fclose(report_.release()) != 0 && !report_error_) report_error_ = errno;
-        if (report_error_) return fail(ErrorCode::io, options_.each.report + ": " + io::errno_text(*report_error_));
+        if (report_error_) return fail(ErrorCode::io, options_.each.report + ": " + platform::errno_text(*report_error_));
         if (skipped_ > 0 && others_ == 0) print_note(fmt::format("nothing to do: all {} pictures are there", skipped_));
         return code_ != 0 ? code_ : any_blank_ ? 1 : 0;
     }
@@ -187,7 +187,7 @@ private:
         if (path.empty()) return {};
         if (const auto checked = check_report(path); !checked) return checked;
         report_.reset(platform::open_for_lines(path));
-        if (report_ == nullptr) return fail(ErrorCode::io, path + ": " + io::errno_text(errno));
+        if (report_ == nullptr) return fail(ErrorCode::io, path + ": " + platform::errno_text(errno));
         return {};
     }
 

@@ -21,7 +21,7 @@ Result<ModelFolder> ModelFolder::enter(const std::string& path, bool allow_exter
     ModelFolder folder;
     folder.root_ = platform::real_path(path);
     const int error = folder.root_.empty() ? errno : platform::enter_folder(folder.root_);
-    if (error != 0) return fail(ErrorCode::io, "--root " + path + ": " + io::errno_text(error));
+    if (error != 0) return fail(ErrorCode::io, "--root " + path + ": " + platform::errno_text(error));
     folder.root_ = path_in(folder.root_, "");
     folder.allow_external_ = allow_external;
     return folder;
@@ -34,7 +34,7 @@ Result<std::string> ModelFolder::resolved(const std::string& path) const {
     if (const std::string_view fault = platform::fault_of_path(typed); !fault.empty())
         return fail(ErrorCode::io, path + ": " + std::string(fault));
     std::string whole = platform::whole_path(platform::is_absolute(typed) ? typed : root_ + typed);
-    if (whole.empty()) return fail(ErrorCode::io, path + ": " + io::errno_text(errno));
+    if (whole.empty()) return fail(ErrorCode::io, path + ": " + platform::errno_text(errno));
     // A link that leads nowhere stays in the path. A file that is written through it would lie elsewhere.
     if (platform::is_link(whole)) return fail(ErrorCode::io, path + ": no such file");
     return whole;

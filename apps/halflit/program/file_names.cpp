@@ -28,7 +28,7 @@ bool ends_with_any_case(std::string_view text, std::string_view end) {
     return true;
 }
 
-tl::unexpected<Error> refused(const std::string& path, int error) { return fail(ErrorCode::io, path + ": " + io::errno_text(error)); }
+tl::unexpected<Error> refused(const std::string& path, int error) { return fail(ErrorCode::io, path + ": " + platform::errno_text(error)); }
 
 }  // namespace
 

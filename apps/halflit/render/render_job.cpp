@@ -316,7 +316,7 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, P
 Result<void> limit_process_memory(std::size_t bytes) {
     const int error = platform::limit_memory(bytes);
     if (error == 0) return {};
-    return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + io::errno_text(error));
+    return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + platform::errno_text(error));
 }
 
 Result<void> choose_settings(Settings& settings, const RenderOptions& options) {

@@ -39,7 +39,7 @@ Result<std::vector<std::byte>> read_standard_input(std::size_t max_bytes, double
         const int error = errno;
         bytes.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
         if (got == 0) return bytes;
-        if (got < 0) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInputName, io::errno_text(error)));
+        if (got < 0) return fail(ErrorCode::io, fmt::format("{}: {}", kStandardInputName, platform::errno_text(error)));
     }
 }
 

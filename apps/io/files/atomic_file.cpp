@@ -24,7 +24,8 @@ namespace {
 using platform::FileKind, platform::FileStatus, platform::Handle;
 
 tl::unexpected<Error> system_error(const std::string& place, int error) {
-    return fail(error == ENOMEM ? ErrorCode::limit : ErrorCode::io, error == EPIPE ? std::string() : place + ": " + errno_text(error));
+    return fail(error == ENOMEM ? ErrorCode::limit : ErrorCode::io,
+                error == EPIPE ? std::string() : place + ": " + platform::errno_text(error));
 }
 
 /// The temporary files that exist now, for abandon_files.

@@ -21,7 +21,7 @@ using platform::FileKind, platform::Handle;
 Result<std::vector<std::byte>> read_regular(const Handle& file, std::size_t max_bytes, ErrorCode cannot_read) {
     platform::FileStatus info;
     if (const int error = platform::status_of(file.get(), info); error != 0)
-        return fail(cannot_read, fmt::format("cannot be read: {}", errno_text(error)));
+        return fail(cannot_read, fmt::format("cannot be read: {}", platform::errno_text(error)));
     if (info.kind != FileKind::file)
         return fail(cannot_read, info.kind == FileKind::folder ? "is a directory, expected a file" : "is not a regular file");
     if (info.bytes > max_bytes)
@@ -30,7 +30,7 @@ Result<std::vector<std::byte>> read_regular(const Handle& file, std::size_t max_
     std::size_t have = 0;
     while (have < bytes.size()) {
         const std::ptrdiff_t got = platform::read_some(file.get(), bytes.data() + have, bytes.size() - have);
-        if (got < 0) return fail(cannot_read, fmt::format("cannot be read: {}", errno_text(errno)));
+        if (got < 0) return fail(cannot_read, fmt::format("cannot be read: {}", platform::errno_text(errno)));
         if (got == 0) return fail(ErrorCode::bad_input, fmt::format("ended after {} of {} bytes while it was read", have, bytes.size()));
         have += static_cast<std::size_t>(got);
     }
@@ -111,7 +111,7 @@ Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t ma
     if (path.find('\0') != std::string::npos)
         return fail(ErrorCode::io, fmt::format("{}: cannot be opened: a file name cannot hold a zero byte", printable(path)));
     const Handle file = platform::open_to_read(path);
-    if (!file.is_open()) return fail(ErrorCode::io, fmt::format("{}: cannot be opened: {}", printable(path), errno_text(errno)));
+    if (!file.is_open()) return fail(ErrorCode::io, fmt::format("{}: cannot be opened: {}", printable(path), platform::errno_text(errno)));
     auto bytes = read_regular(file, max_bytes, ErrorCode::io);
     if (!bytes) return fail(bytes.error().code, fmt::format("{}: {}", printable(path), bytes.error().message));
     return bytes;
@@ -124,7 +124,7 @@ ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> also_all
         errno = ENOENT;
         if (is_name) add(folder);
         if ((!is_name || folders_.back().handle == platform::kNoHandle) && missing_.empty())
-            missing_ = fmt::format("the allowed folder \"{}\" cannot be opened: {}", printable(folder), errno_text(errno));
+            missing_ = fmt::format("the allowed folder \"{}\" cannot be opened: {}", printable(folder), platform::errno_text(errno));
     }
 }
 
@@ -197,7 +197,7 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     return fail(error == ENOMEM   ? ErrorCode::limit
                 : process_is_full ? ErrorCode::io
                                   : ErrorCode::bad_input,
-                fmt::format("\"{}\": cannot be opened: {}", shown, errno_text(error)));
+                fmt::format("\"{}\": cannot be opened: {}", shown, platform::errno_text(error)));
 }
 
 Result<std::vector<std::byte>> ModelFolder::read_like(std::string_view name, std::size_t max_bytes, std::string& found) {

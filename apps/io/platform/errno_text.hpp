@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace halflit::io {
+namespace halflit::platform {
 
 /// Thread-safe, which strerror is not.
 [[nodiscard]] std::string errno_text(int error);
 
-}  // namespace halflit::io
+}  // namespace halflit::platform

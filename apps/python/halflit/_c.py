@@ -137,12 +137,13 @@ def library_path() -> str:
     """The file that HALFLIT_LIBRARY names, or else the package's own library, or else that of the system."""
     if os.environ.get("HALFLIT_LIBRARY"):
         return os.environ["HALFLIT_LIBRARY"]
-    windows = os.name == "nt"
-    own = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", "halflit.dll" if windows else "libhalflit_python.so")
-    if os.path.exists(own):
-        return own
     version = VERSION.rpartition(".")[0]
-    return "halflit.dll" if windows else f"libhalflit_c.{version}.dylib" if sys.platform == "darwin" else f"libhalflit_c.so.{version}"
+    own, of_system = {
+        "win32": ("halflit.dll", "halflit.dll"),
+        "darwin": ("libhalflit_python.so", f"libhalflit_c.{version}.dylib"),
+    }.get(sys.platform, ("libhalflit_python.so", f"libhalflit_c.so.{version}"))
+    packed = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", own)
+    return packed if os.path.exists(packed) else of_system
 
 
 def _load() -> Any:

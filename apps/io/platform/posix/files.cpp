@@ -1,9 +1,9 @@
 #include "apps/io/platform/files.hpp"
 
 #include "apps/io/platform/errno_text.hpp"
+#include "apps/io/platform/handles.hpp"
 #include "apps/io/platform/posix/status.hpp"
 
-#include <dirent.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,7 +14,7 @@
 #include <memory>
 #include <system_error>
 
-namespace halflit::io {
+namespace halflit::platform {
 namespace {
 
 // strerror_r returns the text (GNU) or writes it into the buffer (POSIX).
@@ -27,10 +27,6 @@ std::string errno_text(int error) {
     char buffer[128] = "";
     return error_words(::strerror_r(error, buffer, sizeof buffer), buffer);
 }
-
-}  // namespace halflit::io
-
-namespace halflit::platform {
 
 std::int64_t age_ns(const FileStatus& status) { return std::int64_t{::time(nullptr)} * 1'000'000'000 - status.changed_ns; }
 
@@ -77,14 +73,8 @@ bool is_absolute(std::string_view path) { return path.starts_with('/'); }
 std::size_t last_separator(std::string_view path) { return path.rfind('/'); }
 
 std::vector<std::string> names_in(const std::string& folder, std::size_t most) {
-    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.empty() ? "." : folder.c_str()), &::closedir);
-    std::vector<std::string> names;
-    while (entries && names.size() < most) {
-        const dirent* const entry = ::readdir(entries.get());
-        if (entry == nullptr) break;
-        names.emplace_back(entry->d_name);
-    }
-    return names;
+    const Handle opened = open_folder(folder.empty() ? "." : folder);
+    return opened.is_open() ? names_in(opened.get(), most) : std::vector<std::string>();
 }
 
 int remove_file(const std::string& path) { return ::unlink(path.c_str()) == 0 ? 0 : errno; }

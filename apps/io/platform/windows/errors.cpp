@@ -64,14 +64,10 @@ int errno_of(DWORD error) {
 
 int set_errno() { return errno = errno_of(GetLastError()); }
 
-}  // namespace halflit::platform
-
-namespace halflit::io {
-
 std::string errno_text(int error) {
     char buffer[128] = "";
     if (strerror_s(buffer, sizeof buffer, error) != 0) return std::string("error ").append(std::to_string(error));
     return buffer;
 }
 
-}  // namespace halflit::io
+}  // namespace halflit::platform

@@ -47,11 +47,7 @@ bool rename_at_once(const std::wstring& from, const std::wstring& to) {
     Handle file(reinterpret_cast<NativeHandle>(
         CreateFileW(from.c_str(), DELETE | SYNCHRONIZE, kShareAll, nullptr, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr)));
     if (!file.is_open()) return false;
-    std::wstring whole = to;
-    if (!to.starts_with(L"\\\\?\\")) {
-        whole.resize(GetFullPathNameW(to.c_str(), 0, nullptr, nullptr));
-        whole.resize(GetFullPathNameW(to.c_str(), static_cast<DWORD>(whole.size()), whole.data(), nullptr));
-    }
+    const std::wstring whole = to.starts_with(L"\\\\?\\") ? to : full_path(to);
     std::vector<std::uint64_t> memory((sizeof(RenameInfo) + whole.size() * sizeof(wchar_t)) / sizeof(std::uint64_t) + 1);
     auto* const info =
         new (memory.data()) RenameInfo{kReplace | kPosixSemantics, nullptr, static_cast<DWORD>(whole.size() * sizeof(wchar_t)), {}};

@@ -25,6 +25,12 @@ std::string narrow(std::wstring_view text) {
     return made;
 }
 
+std::wstring full_path(const std::wstring& path) {
+    std::wstring whole(GetFullPathNameW(path.c_str(), 0, nullptr, nullptr), L'\0');
+    whole.resize(GetFullPathNameW(path.c_str(), static_cast<DWORD>(whole.size()), whole.data(), nullptr));
+    return whole;
+}
+
 std::wstring wide_path(const std::string& path) {
     constexpr std::size_t kLong = 240;  // of 260 that are allowed, and 248 for a folder
     if (path.empty()) {
@@ -33,8 +39,7 @@ std::wstring wide_path(const std::string& path) {
     }
     std::wstring made = wide(path);
     if (made.size() < kLong || made.starts_with(L"\\\\?\\")) return made;
-    std::wstring whole(GetFullPathNameW(made.c_str(), 0, nullptr, nullptr), L'\0');
-    whole.resize(GetFullPathNameW(made.c_str(), static_cast<DWORD>(whole.size()), whole.data(), nullptr));
+    const std::wstring whole = full_path(made);
     if (whole.starts_with(L"\\\\")) return L"\\\\?\\UNC" + whole.substr(1);
     return L"\\\\?\\" + whole;
 }

@@ -20,6 +20,8 @@ namespace halflit::platform {
 [[nodiscard]] std::string narrow(std::wstring_view text);
 /// The same for a path. A long one becomes absolute, with the prefix that allows more than 260 letters. "" stays empty, with ENOENT.
 [[nodiscard]] std::wstring wide_path(const std::string& path);
+/// The path from its drive on, by the text alone.
+[[nodiscard]] std::wstring full_path(const std::wstring& path);
 /// A path that Windows tells, with '/' and without the prefix "\\?\".
 [[nodiscard]] std::string plain_path(std::wstring path);
 /// The path of an open file without links; empty with errno.
