@@ -4,7 +4,7 @@
 #include "apps/npm/flag_table.hpp"
 #include "apps/npm/module.hpp"
 
-#include <emscripten/heap.h>
+#include <emscripten/emscripten.h>
 #include <nlohmann/json.hpp>
 
 using namespace halflit;
@@ -20,7 +20,6 @@ EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
         cli::Json report = cli::report_head("report");
         report["scene"] = job->source.name;
         cli::add_frame(report, *job, handle->session.rendered(), handle->session.picture());
-        report["peak_memory_bytes"] = emscripten_get_heap_size();  // never shrinks
         handle->text = cli::to_text(report, true);
         return {};
     });

@@ -7,6 +7,8 @@
 #include "apps/io/platform/process.hpp"
 #include "apps/io/platform/streams.hpp"
 
+#include <emscripten/heap.h>
+
 #include <cerrno>
 #include <cstring>
 
@@ -17,6 +19,8 @@ std::string errno_text(int error) { return std::strerror(error); }
 std::size_t last_separator(std::string_view path) { return path.rfind('/'); }
 
 bool is_terminal(Stream /*stream*/) { return false; }
+
+std::int64_t peak_memory() { return static_cast<std::int64_t>(emscripten_get_heap_size()); }  // never shrinks
 
 int limit_memory(std::size_t /*bytes*/) { return ENOSYS; }
 
