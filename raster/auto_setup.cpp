@@ -155,6 +155,7 @@ Settings usual_settings() {
     settings.samples = 4;
     settings.tone_curve = ToneCurve::neutral;
     settings.shading.anisotropy = 4;
+    settings.sky_shadows = kSkyShadowsAuto;
     settings.background_linear = {linear(0x3a), linear(0x3f), linear(0x47), 1.0f};
     return settings;
 }
@@ -169,38 +170,19 @@ const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
     return is_near && shows_surface(scene, first, 1.0f) ? &first : nullptr;
 }
 
-namespace {
-
-/// A view that was asked for stays.
-bool is_usual(const ViewSettings& view) {
-    const ViewSettings usual;
-    return view.azimuth_deg == usual.azimuth_deg && view.elevation_deg == usual.elevation_deg;
-}
-
-}  // namespace
-
-ViewSettings front_view(const Scene& scene, ViewSettings view) {
-    if (is_usual(view)) view.azimuth_deg += front_azimuth_deg(scene);
-    return view;
-}
-
 AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
     const FpEnvironment environment_of_host;
     AutoSetup setup;
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    setup.view = front_view(scene, options.view);
+    setup.view = setup.framed ? choose_view(scene, bounds, aspect, options.view) : front_view(scene, options.view);
     setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, setup.view);
-    if (setup.framed && is_usual(options.view) && !shows_surface(scene, setup.camera, aspect)) {
-        setup.view = visible_side(scene, bounds, aspect, setup.view);
-        setup.camera = frame_scene(scene, bounds, aspect, setup.view);
-    }
     setup.settings = usual_settings();
     setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
     const float exposure = complete(setup.light, bounds, setup.camera, options);
-    setup.settings.exposure = options.exposure.value_or(exposure);
+    setup.settings.exposure = options.exposure.value_or(exposure) * exposure_factor(options.exposure_compensation_ev);
     // A file whose lights are thousands of lux has an exposure for these, which would hide what glows. Viewers of the field show emission
     // as it would be at the exposure 1; so it is at least as bright as there.
     if (!options.exposure && exposure < 1.0f) setup.settings.shading.emission_scale = 1.0f / exposure;

@@ -209,12 +209,12 @@ constexpr int kSkyMapSize = 256;
 
 bool has_sky_shadows(const Lighting& light, const Settings& settings) {
     const bool ambient = light.environment != nullptr || !(light.ambient.sky_linear == Vec3f{} && light.ambient.ground_linear == Vec3f{});
-    return settings.sky_shadows > 0 && settings.shadows != ShadowMode::off && ambient;
+    return settings.sky_shadows != 0 && settings.shadows != ShadowMode::off && ambient;
 }
 
 /// The settings for the shadow maps of lights: sky shadows, if there are any, need a part of the memory, at most a half.
 Settings beside_sky(const Lighting& light, Settings settings) {
-    if (!has_sky_shadows(light, settings)) return settings;
+    if (settings.sky_shadows == kSkyShadowsAuto || !has_sky_shadows(light, settings)) return settings;
     const std::size_t needed = static_cast<std::size_t>(settings.sky_shadows) * kSkyMapSize * kSkyMapSize * sizeof(float);
     settings.shadow_memory_limit -= std::min(needed, settings.shadow_memory_limit / 2);
     return settings;
@@ -223,9 +223,19 @@ Settings beside_sky(const Lighting& light, Settings settings) {
 /// Lights for sky shadows, with their maps, which are added to `shadows`. Light from all around reaches all of the scene, so its maps are
 /// not cut to what is seen.
 Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Lighting& light, const Settings& settings,
-                                        const ShadowSizes& sizes, ShadowViews& shadows) {
+                                        const ShadowSizes& sizes, ShadowViews& shadows, FramePlanMemory& memory) {
     if (!has_sky_shadows(light, settings)) return std::vector<LightPlan>{};
-    std::vector<LightPlan> lights = shading::plan_lights(shading::sky_lights(settings.sky_shadows, light.environment.get(), light.ambient));
+    const bool in_grid = settings.sky_shadows == kSkyShadowsAuto;
+    const int directions = in_grid ? shading::kGridDirections : settings.sky_shadows, rows = in_grid ? 24 : shading::SkyCells{}.rows;
+    if (memory.sky_cells.rows != rows) memory.sky_cells = {rows, nullptr, {}};
+    std::vector<LightPlan> lights =
+        shading::plan_lights(shading::sky_lights(directions, light.environment.get(), light.ambient, memory.sky_cells));
+    if (in_grid) {
+        make_sky_grid(scene, memory.sky_grid);
+        if (memory.sky_grid.masks.empty()) return std::vector<LightPlan>{};
+        for (LightPlan& one : lights) one.shadow_map = shading::kInSkyGrid;
+        return lights;
+    }
     Settings of_sky = settings;
     of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.texel_count * sizeof(float));
     auto views = plan_shadow_views(lights, scene, nullptr, of_sky, {std::min(sizes.most, kSkyMapSize)});
@@ -252,7 +262,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     const ShadowSizes sizes = shadow_sizes(settings, width, height);
     auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, beside_sky(light, settings), sizes);
     if (!shadows) return tl::unexpected<Error>(shadows.error());
-    auto sky = plan_sky(prepared, light, settings, sizes, *shadows);
+    auto sky = plan_sky(prepared, light, settings, sizes, *shadows, memory);
     if (!sky) return tl::unexpected<Error>(sky.error());
     bool finite_views = all_finite(plan.picture.clip_from_world);
     for (const ShadowView& face : shadows->views) finite_views &= !face.sees_casters || all_finite(face.view.clip_from_world);
@@ -270,24 +280,27 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
         // To read a texel for its range takes some 2 ns; a light that is computed more cheaply saves about an eighth of that a pixel.
         facts.worth_texels = static_cast<double>(width) * height * (0.25 + 0.125 * static_cast<double>(lights.size()));
     }
-    plan.shading = shading::plan_shading(
-        {.materials = scene.materials,
-         .textures = scene.textures,
-         .available_slots = prepared.available_slots(),
-         .lights = lights,
-         .ambient = light.ambient,
-         .options = options,
-         .environment = light.environment,
-         .exposure = static_cast<double>(settings.exposure),
-         .tone_curve = settings.tone_curve,
-         .viewer = viewer_of(camera),
-         .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps), std::move(shadows->map_of_light),
-                     prepared.object_radii(), std::move(*sky), settings.sky_shadows, static_cast<double>(settings.shadow_fade)},
-         .facts = budget ? &facts : nullptr,
-         .drawn = &prepared.drawn_materials(),
-         .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn,
-         .looks = prepared.looks()},
-        memory.shading);
+    plan.shading =
+        shading::plan_shading({.materials = scene.materials,
+                               .textures = scene.textures,
+                               .available_slots = prepared.available_slots(),
+                               .lights = lights,
+                               .ambient = light.ambient,
+                               .options = options,
+                               .environment = light.environment,
+                               .exposure = static_cast<double>(settings.exposure),
+                               .tone_curve = settings.tone_curve,
+                               .viewer = viewer_of(camera),
+                               .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps),
+                                           std::move(shadows->map_of_light), prepared.object_radii(), std::move(*sky),
+                                           settings.sky_shadows == kSkyShadowsAuto ? shading::kGridDirections : settings.sky_shadows,
+                                           settings.sky_shadows == kSkyShadowsAuto ? memory.sky_grid.plan : shading::SkyGridPlan{},
+                                           static_cast<double>(settings.shadow_fade)},
+                               .facts = budget ? &facts : nullptr,
+                               .drawn = &prepared.drawn_materials(),
+                               .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn,
+                               .looks = prepared.looks()},
+                              memory.shading);
     plan.written = plan.picture.region;
     plan.cells = uses_cells(plan.shading);
     for (std::size_t i = 0; i < plan.shading.materials.size(); ++i) {

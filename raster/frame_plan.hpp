@@ -10,8 +10,10 @@
 #include "raster/view/light_culling.hpp"
 #include "raster/view/projection.hpp"
 #include "raster/view/shadow_views.hpp"
+#include "raster/view/sky_grid.hpp"
 #include "raster/view/view.hpp"
 #include "shading/planner.hpp"
+#include "shading/sky_lights.hpp"
 
 #include <array>
 #include <map>
@@ -50,6 +52,8 @@ struct FramePlanMemory {
     std::map<std::array<double, 3>, double> light_distances;
     /// Texels of all shadow maps, one map after the other. Without a value the plan is only read: its maps have no texels.
     std::optional<RawBuffer<float>> shadow_texels;
+    SkyGrid sky_grid;
+    shading::SkyCells sky_cells;
     shading::ForEachRow for_each_row;  ///< of the call; empty: none
     StopSignal* stop = nullptr;        ///< of the call; null: none, and shadow_texels has no value
 };

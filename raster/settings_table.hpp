@@ -41,6 +41,7 @@ struct SettingValues {
     int step = 0;                 ///< only multiples of it; 0: all
     bool zero_too = false;        ///< 0 besides the range
     std::string_view zero{};      ///< a word for that 0
+    std::string_view one{};       ///< a word for a 1 besides the range
     std::span<const int> list{};  ///< of whole numbers; empty: all in the range
     std::span<const std::string_view> names{};
     double unit = 1;  ///< of the number that a flag takes
@@ -51,6 +52,11 @@ struct SettingValues {
     [[nodiscard]] constexpr SettingValues or_zero(std::string_view word) const {
         SettingValues out = *this;
         out.zero_too = true, out.zero = word;
+        return out;
+    }
+    [[nodiscard]] constexpr SettingValues or_one(std::string_view word) const {
+        SettingValues out = *this;
+        out.one = word;
         return out;
     }
     [[nodiscard]] constexpr SettingValues in_units_of(double size) const {
@@ -98,7 +104,7 @@ constexpr SettingValues named(std::span<const std::string_view> names) {
 constexpr SettingValues truth() { return named(kOffOn); }
 
 inline bool SettingValues::contains(double value) const {
-    if (zero_too && value == 0.0) return true;
+    if ((zero_too && value == 0.0) || (!one.empty() && value == 1.0)) return true;
     if (!(value >= low && value <= high) || (open && value == low)) return false;
     if (kind == Kind::number) return true;
     constexpr double kAllWhole = 0x1p53;
@@ -108,7 +114,8 @@ inline bool SettingValues::contains(double value) const {
 }
 
 inline std::string SettingValues::expected() const {
-    std::string text = !zero_too ? "" : zero.empty() ? "0, or " : std::string(zero).append(" or ");
+    std::string text = one.empty() ? "" : std::string(one).append(", ");
+    text.append(!zero_too ? "" : zero.empty() ? "0, or " : std::string(zero).append(" or "));
     const auto add_all = [&](const auto& items, const auto& text_of) {
         for (std::size_t i = 0; i < items.size(); ++i)
             text.append(i == 0 ? "" : i + 1 < items.size() ? ", " : " or ").append(text_of(items[i]));

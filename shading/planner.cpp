@@ -71,12 +71,38 @@ void plan_environments(const PlanInputs& inputs, double budget_codes, bool bound
     }
 }
 
+/// Light from all directions that the grid has.
+void plan_sky_grid(ShadingPlan& plan) {
+    plan.sky_bounce = kGridBounce;
+    double all = 0.0, total[10] = {};
+    for (const LightPlan& light : plan.sky) {
+        const double l = double{light.brightness}, x = double{light.to_light[0]}, y = double{light.to_light[1]},
+                     z = double{light.to_light[2]};
+        const double terms[10] = {3.0 / 32,
+                                  x / 2,
+                                  y / 2,
+                                  z / 2,
+                                  15.0 / 32 * x * x,
+                                  15.0 / 32 * y * y,
+                                  15.0 / 32 * z * z,
+                                  15.0 / 16 * x * y,
+                                  15.0 / 16 * x * z,
+                                  15.0 / 16 * y * z};
+        for (int k = 0; k < 10; ++k) total[k] += l * terms[k];
+        all += l;
+    }
+    for (int k = 0; k < 10; ++k) plan.sky_grid.total[k] = static_cast<float>(total[k]);
+    plan.sky_grid.least_total = std::max(static_cast<float>(kLeastGridTotal * all), 1e-30f);
+}
+
 /// Plans shadows, and the distance over which wrapped light fades in them: d0 = 9/8 * 2 w R for a lobe of wrap w on an object of radius R.
 /// Materials without wrap get none.
 void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     plan.shadow_maps = shadows.maps;
     plan.sky = shadows.sky;
     if (!plan.sky.empty()) plan.sky_focus = narrowest_sky_focus(shadows.sky_directions);
+    plan.sky_grid = shadows.sky_grid;
+    if (plan.sky_grid.masks != nullptr) plan_sky_grid(plan);
     for (std::size_t i = 0; i < std::min(plan.lights.size(), shadows.map_of_light.size()); ++i)
         plan.lights[i].shadow_map = shadows.map_of_light[i];
     plan.shadow_mode = plan.shadow_maps.empty() ? ShadowMode::off : shadows.mode;

@@ -31,6 +31,7 @@ struct ShadowInputs {
     std::span<const double> object_radius;   ///< radius of the largest object made of each material, world units
     std::vector<LightPlan> sky;              ///< of sky_lights(), with their maps; empty: no sky shadows
     int sky_directions = 0;                  ///< that they are made for; black ones are left out
+    SkyGridPlan sky_grid;                    ///< hides them, in place of maps
     double fade_distance = 0;                ///< distance behind a blocker where wrapped light is gone; 0: from object size and wrap
 };
 

@@ -11,49 +11,37 @@
 namespace halflit::shading {
 namespace {
 
-constexpr int kGridRows = 96;  ///< of the grid whose cells are given to the directions, twice as many columns
+Vec3d cell_direction(int rows, int y, int x) { return sh::equirect_direction((x + 0.5) / (2 * rows), (y + 0.5) / rows); }
 
 /// Radiance times solid angle of the cells of a grid in the image's frame.
-class LightGrid {
-public:
-    LightGrid() : cells_(static_cast<std::size_t>(2 * kGridRows * kGridRows)) {}
-
-    void add_image(const sh::EquirectView& image) {
-        // A pixel goes to the cell of its centre; pixels larger than cells are cut up.
-        const int cuts_y = (kGridRows + image.height - 1) / image.height, cuts_x = (2 * kGridRows + image.width - 1) / image.width;
-        const int height = image.height * cuts_y, width = image.width * cuts_x;
-        for (int y = 0; y < height; ++y) {
-            check_time();
-            const double solid_angle = sh::pixel_solid_angle(width, height, y);
-            for (int x = 0; x < width; ++x)
-                cell(y * kGridRows / height, x * 2 * kGridRows / width) += image.at(x / cuts_x, y / cuts_y) * solid_angle;
+std::vector<Vec3d> cells_of_image(const sh::EquirectView& image, int rows) {
+    std::vector<Vec3d> cells(static_cast<std::size_t>(2 * rows * rows));
+    // A pixel goes to the cell of its centre; pixels larger than cells are cut up.
+    const int cuts_y = (rows + image.height - 1) / image.height, cuts_x = (2 * rows + image.width - 1) / image.width;
+    const int height = image.height * cuts_y, width = image.width * cuts_x;
+    for (int y = 0; y < height; ++y) {
+        check_time();
+        const double solid_angle = sh::pixel_solid_angle(width, height, y);
+        for (int x = 0; x < width; ++x) {
+            Vec3d& cell = cells[static_cast<std::size_t>((y * rows / height) * 2 * rows + x * 2 * rows / width)];
+            cell = cell + image.at(x / cuts_x, y / cuts_y) * solid_angle;
         }
     }
-    template <class Radiance>
-    void add_function(const Radiance& radiance) {
-        for (int y = 0; y < kGridRows; ++y)
-            for (int x = 0; x < 2 * kGridRows; ++x)
-                cell(y, x) += radiance(direction(y, x)) * sh::pixel_solid_angle(2 * kGridRows, kGridRows, y);
-    }
-    /// f(direction, light) for each cell.
-    template <class Fn>
-    void each(const Fn& f) const {
-        for (int y = 0; y < kGridRows; ++y)
-            for (int x = 0; x < 2 * kGridRows; ++x) f(direction(y, x), cells_[static_cast<std::size_t>(y * 2 * kGridRows + x)].sum);
-    }
+    return cells;
+}
 
-private:
-    struct Cell {
-        Vec3d sum;
-        void operator+=(Vec3d more) { sum = sum + more; }
-    };
-    [[nodiscard]] static Vec3d direction(int y, int x) {
-        return sh::equirect_direction((x + 0.5) / (2 * kGridRows), (y + 0.5) / kGridRows);
-    }
-    Cell& cell(int y, int x) { return cells_[static_cast<std::size_t>(y * 2 * kGridRows + x)]; }
-
-    std::vector<Cell> cells_;
-};
+/// A Lambert lobe makes a + b y of the radiance a + 3/2 b y.
+std::vector<Vec3d> cells_of_ambient(const Ambient& ambient, int rows) {
+    const Vec3d sky = to_double(ambient.sky_linear), ground = to_double(ambient.ground_linear);
+    const auto positive = [](double x) { return x > 0.0 ? x : 0.0; };
+    std::vector<Vec3d> cells;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < 2 * rows; ++x) {
+            const Vec3d l = (sky + ground) * 0.5 + (sky - ground) * (0.75 * cell_direction(rows, y, x).y);
+            cells.push_back(Vec3d{positive(l.x), positive(l.y), positive(l.z)} * sh::pixel_solid_angle(2 * rows, rows, y));
+        }
+    return cells;
+}
 
 }  // namespace
 
@@ -71,33 +59,28 @@ std::vector<Vec3d> sky_directions(int n) {
     return directions;
 }
 
-std::vector<Light> sky_lights(int n, const Environment* environment, const Ambient& ambient) {
+std::vector<Light> sky_lights(int n, const Environment* environment, const Ambient& ambient, SkyCells& memory) {
     const std::vector<Vec3d> directions = sky_directions(n);
-    LightGrid grid;
+    const int rows = memory.rows;
     sh::Rotation turn = sh::rotation_about_y(0.0);
-    if (environment != nullptr) {
-        turn = sh::rotation_about_y(environment->rotate_rad);
-        grid.add_image(environment->light->image());
+    if (environment == nullptr) {
+        memory = {rows, nullptr, cells_of_ambient(ambient, rows)};
     } else {
-        // A Lambert lobe makes a + b y of the radiance a + 3/2 b y.
-        const Vec3d sky = to_double(ambient.sky_linear), ground = to_double(ambient.ground_linear);
-        const auto positive = [](double x) { return x > 0.0 ? x : 0.0; };
-        grid.add_function([&](Vec3d d) {
-            const Vec3d l = (sky + ground) * 0.5 + (sky - ground) * (0.75 * d.y);
-            return Vec3d{positive(l.x), positive(l.y), positive(l.z)};
-        });
+        turn = sh::rotation_about_y(environment->rotate_rad);
+        if (memory.light != environment->light) memory = {rows, environment->light, cells_of_image(environment->light->image(), rows)};
     }
     std::vector<Vec3d> light(directions.size());
-    grid.each([&](Vec3d in_image, Vec3d part) {
-        const Vec3d d = turn * in_image;
-        std::size_t nearest = 0;
-        double most = -2.0;
-        for (std::size_t i = 0; i < directions.size(); ++i) {
-            const double cosine = dot(d, directions[i]);
-            if (cosine > most) most = cosine, nearest = i;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < 2 * rows; ++x) {
+            const Vec3d d = turn * cell_direction(rows, y, x);
+            std::size_t nearest = 0;
+            double most = -2.0;
+            for (std::size_t i = 0; i < directions.size(); ++i) {
+                const double cosine = dot(d, directions[i]);
+                if (cosine > most) most = cosine, nearest = i;
+            }
+            light[nearest] = light[nearest] + memory.cells[static_cast<std::size_t>(y * 2 * rows + x)];
         }
-        light[nearest] = light[nearest] + part;
-    });
     std::vector<Light> lights;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const Vec3d color = light[i] * (1.0 / kPi);

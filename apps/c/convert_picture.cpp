@@ -25,7 +25,7 @@ HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, reserved);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);
-HALFLIT_ENDS_WITH(halflit_picture_request, margin_y);
+HALFLIT_ENDS_WITH(halflit_picture_request, exposure_compensation_ev);
 HALFLIT_ENDS_WITH(halflit_view, any_side);
 HALFLIT_ENDS_WITH(halflit_execution, reserved);
 HALFLIT_ENDS_WITH(halflit_target, uv_row_bytes);
@@ -215,6 +215,9 @@ Result<PictureRequest> picture_request(const halflit_picture_request* given) {
     options.view = view_settings(*read);
     if (read->own_ambient != 0) options.ambient_linear = vec3(read->ambient_color);
     if (read->exposure > 0.0f) options.exposure = read->exposure;
+    if (!(read->exposure_compensation_ev >= -64.0 && read->exposure_compensation_ev <= 64.0))
+        return fail(ErrorCode::usage, "halflit_picture_request: exposure_compensation_ev is not between -64 and 64");
+    options.exposure_compensation_ev = static_cast<float>(read->exposure_compensation_ev);
     options.add_lights = read->add_lights != 0;
     options.studio_turn_rad = read->studio_turn_rad;
     Members members("halflit_picture_request");

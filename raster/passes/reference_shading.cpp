@@ -51,7 +51,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     }
     std::vector<reference::Hidden> hidden_sky(plan.sky.size() * shading::kBlockSize);
     for (std::size_t i = 0; i < plan.sky.size(); ++i) {
-        if (plan.sky[i].shadow_map < 0) continue;
+        if (plan.sky[i].shadow_map == -1) continue;
         alignas(64) float core[shading::kBlockSize], excess[shading::kBlockSize];
         kernels.hidden(plan, material_plan, plan.sky[i], block, count, core, excess);
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
@@ -60,6 +60,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     reference::Surroundings around;
     around.sky = plan.sky;
     around.sky_focus = static_cast<double>(plan.sky_focus);
+    if (plan.sky_grid.masks != nullptr) around.sky_grid = &plan.sky_grid;
     around.diffuse = diffuse_[index].get();
     around.reflections = &plan.reflections;
     around.reflection_lobes = material_plan.reflection_lobes;

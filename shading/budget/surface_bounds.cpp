@@ -308,6 +308,12 @@ bool may_split(const ShadingPlan& plan, const MaterialPlan& material) {
     return plan.shadow_mode == ShadowMode::soft_split && material.shadow_fade_scale > 0.0f && (material.stages & kStageLights) != 0;
 }
 
+double sky_share_error(const ShadingPlan& plan, const MaterialPlan& material, double normal_error) {
+    const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
+    if (plan.sky_grid.masks != nullptr) return kGridSlope * (sums + normal_error);
+    return sums + 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0) * normal_error;
+}
+
 double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const ShadingPlan& plan, const Surface& s,
                       const Arriving& light, const ReflectionSteps* reflections, double exposure) {
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
@@ -340,12 +346,15 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
         codes += costs.absolute(share * mirrored.error + (s.roughness.absolute + 5.0 * s.cosine_error()) * mirrored.most);
         codes += codes_of(costs, s.occlusion, s.albedo * diffuse.most + share * mirrored.most);
         if (!plan.sky.empty()) {
-            // Shares of sums over the sky: rounding, and weights that change with the normal, no faster than a lobe's slope, or twice the
-            // inverse width of the narrowest focus, by a factor of the lights in reach.
-            const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
-            const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
-            codes += costs.absolute(s.albedo * (sums + slope * s.normal_error) * diffuse.most);
-            codes += costs.absolute(share * (sums + 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error) * mirrored.most);
+            // Of mirrored light weights change no faster than twice the inverse width of the narrowest focus, by a factor of the lights in
+            // reach.
+            const double diffuse_error = sky_share_error(plan, material, s.normal_error);
+            const double mirrored_error =
+                plan.sky_grid.masks != nullptr
+                    ? diffuse_error
+                    : sky_share_error(plan, material, 0.0) + 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error;
+            codes += costs.absolute(s.albedo * diffuse_error * diffuse.most);
+            codes += costs.absolute(share * mirrored_error * mirrored.most);
         }
         diffuse_light += diffuse.most;
         shiny += mirrored.most;

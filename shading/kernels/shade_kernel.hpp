@@ -97,8 +97,11 @@ static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPla
     for (int lane = 0; lane < count; lane += kWidth) {
         TexelTaps taps;
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane, taps).surface;
+        const V3 looked_up_at = looked_up(frame, block, lane);
         const HiddenShares share =
-            hidden_share(frame, light, looked_up(frame, block, lane), surface, arrival(light, position).direction, fade, soft);
+            light.shadow_map == shading::kInSkyGrid
+                ? HiddenShares{hidden_share(grid_point(frame.sky_grid, looked_up_at, surface), light.source), F(0.0f)}
+                : hidden_share(frame, light, looked_up_at, surface, arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
         store(excess + lane, share.soft);
     }

@@ -1,4 +1,5 @@
-// Sky shadows: how much of the light of the surroundings reaches a surface, from shadow maps of a few directions all around.
+// Sky shadows: how much of the light of the surroundings reaches a surface, from shadow maps of a few directions all around, or from the
+// grid of what hides it.
 //
 // The share that is hidden is a ratio of two sums over the directions: what the lobe receives from those that are hidden, and from all. So
 // a surface from which nothing is hidden keeps its light bit for bit, and one that sees nothing is exactly black; the sums' own error of
@@ -6,6 +7,7 @@
 #pragma once
 
 #include "shading/kernels/light_kernel.hpp"
+#include "shading/kernels/sky_grid_kernel.hpp"
 
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
@@ -25,6 +27,10 @@ HALFLIT_INLINE F seen_share(F hidden, F total) {
 template <bool kSpecular>
 HALFLIT_INLINE SkyVisibility sky_visibility(const ShadowReceiver& receiver, const shading::LobePlan& lobe, V3 normal, V3 reflection,
                                             F roughness) {
+    if (receiver.frame.sky_grid.masks != nullptr) {
+        const F seen = seen_in_grid(receiver.frame, receiver.position, receiver.surface_normal, normal);
+        return {{seen, seen, seen}, seen};
+    }
     const F none(0.0f);
     const bool split = receiver.frame.shadow_mode == ShadowMode::soft_split;
     const bool soft = split && receiver.fade.scale > 0.0f;

@@ -303,9 +303,26 @@ struct SkySeen {
     double mirrored = 1;
 };
 
+/// The share of it by the grid (plan/sky_grid_plan.hpp).
+double seen_in_grid(Vec3d n, const Surroundings& around) {
+    double hidden = 0.0, total = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < around.sky.size(); ++i) {
+        const LightPlan& light = around.sky[i];
+        const double cosine = dot(n, Vec3d{light.to_light[0], light.to_light[1], light.to_light[2]}), l = double{light.brightness};
+        hidden += l * std::max(cosine, 0.0) * around.hidden_sky[i].hard;
+        total += l * (3.0 / 32 + cosine / 2 + 15.0 / 32 * cosine * cosine);
+        all += l;
+    }
+    return 1.0 - std::min(hidden / std::max({total, kLeastGridTotal * all, 1e-30}), 1.0) * (1.0 - double{kGridBounce});
+}
+
 /// Shares of the light of the surroundings that a surface sees.
 SkySeen sky_seen(const FrameInputs& frame, const Lobe& lobe, const Surface& surface, const Surroundings& around) {
     if (around.sky.empty()) return {};
+    if (around.sky_grid != nullptr) {
+        const double seen = seen_in_grid(surface.normal, around);
+        return {{seen, seen, seen}, seen};
+    }
     const Vec3d reflection = scale(surface.normal, 2 * dot(surface.normal, surface.to_eye)) - surface.to_eye;
     const double roughness = std::max(surface.roughness, kHeldRoughness);
     const double focus = std::min(around.sky_focus, 1.0 - double{kSkyFocusByAlpha} * roughness * roughness);

@@ -1265,7 +1265,13 @@ static void test_setup(void) {
     options.azimuth_deg = 35;
     options.exposure = 0.5f;
     CHECK(draw_setup(cube.scene, &options) != first);
+    other = draw_setup(cube.scene, &options);
     options.exposure = 0;
+    options.exposure_compensation_ev = -1;  // the chosen one is 1
+    CHECK(draw_setup(cube.scene, &options) == other);
+    options.exposure = 0.25f, options.exposure_compensation_ev = 1;
+    CHECK(draw_setup(cube.scene, &options) == other);
+    options.exposure = 0, options.exposure_compensation_ev = 0;
     options.studio = HALFLIT_STUDIO_NEVER;
     CHECK(draw_setup(cube.scene, &options) != first);
     options.studio = HALFLIT_STUDIO_FOR_DARK;
@@ -1304,6 +1310,10 @@ static void test_setup(void) {
     options.exposure = -1;
     CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE, "exposure");
     options.exposure = 0;
+    options.exposure_compensation_ev = 65;
+    CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE,
+                "exposure_compensation_ev");
+    options.exposure_compensation_ev = 0;
     options.width = 8;
     CHECK_FAILS(halflit_choose_picture(cube.scene, &options, NULL, &cube.camera, &cube.settings, NULL), HALFLIT_ERROR_USAGE, "no pixels");
     options.width = 0;

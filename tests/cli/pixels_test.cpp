@@ -117,6 +117,10 @@ TEST_CASE("pixels: a step of exposure doubles the light", "[cli]") {
     CHECK(middle("0.25,0.25,0.25", "1") == middle("0.5,0.5,0.5", "0"));
     CHECK(middle("0.25,0.25,0.25", "2") == middle("1,1,1", "0"));
     CHECK(middle("0.5,0.5,0.5", "-1") == middle("0.25,0.25,0.25", "0"));
+    // A scene without lights of a file has the exposure 1.
+    CHECK(middle("0.25,0.25,0.25", "auto") == middle("0.25,0.25,0.25", "0"));
+    CHECK(middle("0.25,0.25,0.25", "auto+1.0") == middle("0.5,0.5,0.5", "0"));
+    CHECK(middle("0.5,0.5,0.5", "auto-1") == middle("0.25,0.25,0.25", "auto"));
 }
 
 TEST_CASE("pixels: kd, ks and shininess are the numbers of the classic formula, in every scene with materials", "[cli]") {

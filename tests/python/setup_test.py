@@ -110,8 +110,11 @@ class Keywords(unittest.TestCase):
         self.assertEqual(scene.render(setup=scene.setup(64), ev=1).pixel_hash, scene.render(setup=scene.setup(64), exposure=2).pixel_hash)
         self.assertEqual(scene.setup(64, ev=-1).exposure, 0.5)
         self.assertEqual(halflit.render("demo", (80, 60), ev=0.7).pixel_hash, program_hash("demo", "--size", "80x60", "--exposure", "0.7"))
+        self.assertEqual(scene.setup(64, ev="auto-1").exposure, 0.5)
+        self.assertEqual(scene.render(setup=scene.setup(64), ev="auto+1").pixel_hash, expected.pixel_hash)
         for keywords, words in (({"ev": 1, "exposure": 2}, "ev: cannot be combined"), ({"ev": float("nan")}, "ev: expected -64 to 64"),
-                                ({"ev": "1"}, "ev: expected a number"), ({"exposure": 0}, "exposure: expected a factor above 0")):  # fmt: skip
+                                ({"ev": "1"}, "ev: expected a number"), ({"ev": "auto+65"}, "ev: expected a number"),
+                                ({"exposure": 0}, "exposure: expected a factor above 0")):  # fmt: skip
             with self.assertRaisesRegex(halflit.UsageError, words):
                 scene.render(8, **keywords)
 

@@ -62,8 +62,9 @@ bool chosen(const Camera& camera, Scene scene = box_scene()) {
 
 }  // namespace
 
-TEST_CASE("setup: the usual settings are four samples over dark grey, the neutral curve, anisotropic filters, and otherwise the defaults",
-          "[raster][setup]") {
+TEST_CASE(
+    "setup: the usual settings are four samples over dark grey, the neutral curve, hidden skies, anisotropic filters, and else defaults",
+    "[raster][setup]") {
     Settings s = usual_settings();
     CHECK(s.samples == 4);
     CHECK(s.tone_curve == ToneCurve::neutral);
@@ -71,7 +72,9 @@ TEST_CASE("setup: the usual settings are four samples over dark grey, the neutra
     std::vector<std::uint8_t> pixels(4);
     REQUIRE(render(Scene{}, Camera{}, s, {.width = 1, .height = 1, .pixels = pixels.data()}));
     CHECK(pixels == std::vector<std::uint8_t>{0x3a, 0x3f, 0x47, 0xff});
+    CHECK(s.sky_shadows == kSkyShadowsAuto);
     s.samples = Settings{}.samples;
+    s.sky_shadows = Settings{}.sky_shadows;
     s.tone_curve = Settings{}.tone_curve;
     s.shading.anisotropy = Settings{}.shading.anisotropy;
     s.background_linear = Settings{}.background_linear;

@@ -422,7 +422,7 @@ TEST_CASE("execution: check_settings refuses whatever a frame refuses", "[raster
     };
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     for (const int samples : {0, 2, 12, 32}) check([&](Settings& s) { s.samples = samples; });
-    for (const int sky_shadows : {-1, 1, 15, 1025}) check([&](Settings& s) { s.sky_shadows = sky_shadows; });
+    for (const int sky_shadows : {-1, 2, 15, 1025}) check([&](Settings& s) { s.sky_shadows = sky_shadows; });
     for (const int anisotropy : {-1, 0, 17}) check([&](Settings& s) { s.shading.anisotropy = anisotropy; });
     for (const int side : {-64, 32, 63, 100, 8192, std::numeric_limits<int>::min()}) check([&](Settings& s) { s.shadow_size = side; });
     for (const float fade : {-1.0f, kNan, std::numeric_limits<float>::infinity()}) check([&](Settings& s) { s.shadow_fade = fade; });

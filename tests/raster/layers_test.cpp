@@ -67,6 +67,7 @@ TEST_CASE("layers: coats and sheen are as accuracy reference computes them, with
             for (Material& m : trial.scene.materials)
                 m.roughness = std::max(m.roughness, 0.3f), m.clearcoat_roughness = std::max(m.clearcoat_roughness, 0.3f);
         if (seed % 8 == 0) trial.settings.sky_shadows = 32;
+        if (seed % 8 == 4) trial.settings.sky_shadows = kSkyShadowsAuto;
         const Picture exact = draw(trial.scene, trial.camera, trial.settings);
         trial.settings.shading.accuracy = Accuracy::reference;
         const double apart = largest_codes(exact, draw(trial.scene, trial.camera, trial.settings));

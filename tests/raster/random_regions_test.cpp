@@ -34,7 +34,7 @@ Settings random_settings(Random& random) {
     settings.tone_curve = random.pick({ToneCurve::none, ToneCurve::reinhard, ToneCurve::aces, ToneCurve::neutral});
     settings.shadows = random.pick({ShadowMode::off, ShadowMode::hard, ShadowMode::soft_split, ShadowMode::soft_split});
     settings.shadow_size = 128;
-    settings.sky_shadows = random.one_in(3) ? 16 : 0;
+    settings.sky_shadows = random.one_in(3) ? 16 : random.one_in(2) ? kSkyShadowsAuto : 0;
     settings.soft_shadow_maps = 4 + random.below(5);
     settings.shadow_terminator_offset = random.one_in(6);
     ShadingSettings& shading = settings.shading;

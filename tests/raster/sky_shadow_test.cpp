@@ -5,6 +5,7 @@
 #include "sh/equirect.hpp"
 #include "sh/trig.hpp"
 
+#include "shading/plan/sky_grid_plan.hpp"
 #include "shading/sky_lights.hpp"
 #include "tests/raster/box_shadow.hpp"
 #include "tests/support/catch.hpp"
@@ -173,9 +174,9 @@ struct Errors {
     int pixels = 0;
 };
 
-/// Errors of a picture in codes against light that rays in `directions` directions bring in.
+/// Errors of a picture in codes against light that rays in `directions` directions bring in. bounce: share of what they do not.
 Errors against_rays(const Model& model, const EnvironmentImage& sky, const std::vector<float>& picture, const std::vector<float>& open,
-                    int directions) {
+                    int directions, double bounce = 0) {
     const std::vector<Vec3d> around = shading::sky_directions(directions);
     std::vector<double> radiance;
     for (const Vec3d& d : around) {
@@ -200,8 +201,9 @@ Errors against_rays(const Model& model, const EnvironmentImage& sky, const std::
             double light = 0;
             for (std::size_t i = 0; i < around.size(); ++i) {
                 const double cosine = dot(hit->normal, around[i]);
-                if (cosine <= 0 || model.first(hit->p + hit->normal * 1e-6, around[i])) continue;
-                light += cosine * radiance[i] * 4 / directions;
+                if (cosine <= 0) continue;
+                const bool hidden = model.first(hit->p + hit->normal * 1e-6, around[i]).has_value();
+                light += cosine * radiance[i] * 4 / directions * (hidden ? bounce : 1);
             }
             const double error = std::abs(code(double{picture[at + 1]}) - code(light));
             errors.mean += error;
@@ -243,6 +245,11 @@ TEST_CASE("sky shadows: the light of rays in 4,096 directions, within five codes
                 CHECK(errors.mean <= (directions == 64 ? 5.0 : directions == 128 ? 3.0 : 2.1));
                 CHECK(errors.mean < errors.unshadowed / 4);
             }
+            const Errors errors = against_rays(model, sky, draw(model, kSkyShadowsAuto), open, 4096, double{shading::kGridBounce});
+            UNSCOPED_INFO(model.name << (studio ? " in the studio" : "") << ", by the grid: mean " << errors.mean << " codes, worst "
+                                     << errors.worst << ", without sky shadows " << errors.unshadowed);
+            CHECK(errors.mean <= 6.0);
+            CHECK(errors.mean < errors.unshadowed / 2);
         }
     }
 }
@@ -250,10 +257,10 @@ TEST_CASE("sky shadows: the light of rays in 4,096 directions, within five codes
 TEST_CASE("sky shadows: what nothing hides keeps its bits", "[raster][sky-shadows]") {
     Model model{"a plane", white_scene(uneven_sky()), looking({1, 2, 3}, {0, 0, 0}), {}};
     add(model.scene, make_plane(1.0f, 8), {0, 0, 0});
-    CHECK(draw(model, 64) == draw(model, 0));
+    for (const int sky_shadows : {kSkyShadowsAuto, 64}) CHECK(draw(model, sky_shadows) == draw(model, 0));
     model.scene.environment = nullptr;
     model.scene.ambient = {{0.5f, 0.6f, 0.7f}, {0.3f, 0.2f, 0.1f}};
-    CHECK(draw(model, 64) == draw(model, 0));
+    for (const int sky_shadows : {kSkyShadowsAuto, 64}) CHECK(draw(model, sky_shadows) == draw(model, 0));
 }
 
 TEST_CASE("sky shadows: a closed room is black inside, with highlights and wrapped light, under a sky and ambient light",
@@ -285,7 +292,8 @@ TEST_CASE("sky shadows: the lights of all directions together are the sky's ligh
         const auto sky = make_environment(image, {.extract_suns = false}).value();
         double sum = 0;
         Vec3d mean{};
-        for (const Light& light : shading::sky_lights(n, sky.get(), {})) {
+        shading::SkyCells cells;
+        for (const Light& light : shading::sky_lights(n, sky.get(), {}, cells)) {
             sum += double{light.color_linear.y};
             mean = mean + to_double(light.direction_ws) * (1.0 / n);
         }
@@ -304,13 +312,13 @@ TEST_CASE("sky shadows: the same bits by every instruction set, tile size and nu
     model.scene.materials[0].roughness = 0.4f;
     model.scene.materials[0].lobe = Lobe::sloan(0.4f);
     Settings settings;
-    settings.sky_shadows = 32;
     settings.samples = 4;
     const auto picture = [&](const Settings& with, const Execution& execution) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(4 * kWidth * kHeight));
         REQUIRE(render(model.scene, model.camera, with, {.width = kWidth, .height = kHeight, .pixels = pixels.data()}, execution));
         return pixels;
     };
+    settings.sky_shadows = GENERATE(kSkyShadowsAuto, 32);
     const auto expected = picture(settings, {.threads = 1, .isa = Isa::scalar});
     for (const Isa isa : test::available_isas())
         for (const int tile : {16, 64})
@@ -329,9 +337,10 @@ TEST_CASE("sky shadows: the same bits by every instruction set, tile size and nu
 TEST_CASE("sky shadows: accuracy reference draws the same, and an error budget keeps its promise", "[raster][sky-shadows]") {
     Model model = box_on_plane(studio_image());
     model.scene.materials[0].roughness = 0.5f;
+    const int sky_shadows = GENERATE(kSkyShadowsAuto, 64);
     const auto picture = [&](const ShadingSettings& shading, double* bound) {
         Settings settings;
-        settings.sky_shadows = 64;
+        settings.sky_shadows = sky_shadows;
         settings.shading = shading;
         std::vector<float> linear(static_cast<std::size_t>(4 * kWidth * kHeight));
         const auto report = render(model.scene, model.camera, settings, {.width = kWidth, .height = kHeight, .linear = linear.data()});

@@ -57,6 +57,8 @@ struct FilmOptions {
     /// Frames are asked for.
     [[nodiscard]] bool wanted() const { return frames || turntable > 0 || several_views(); }
     [[nodiscard]] bool several_views() const { return views.size() > 1 || (views.size() == 1 && views[0].of_file); }
+    /// The frames differ: the view turns, or the scene moves.
+    [[nodiscard]] bool moves() const { return wanted() && (turntable > 0 || animates()); }
     /// The animation runs. A turntable shows one pose unless it has a frame rate.
     [[nodiscard]] bool animates() const { return !time_held && frames && (turntable == 0 || fps); }
     /// --frames, one turn, or one for each view.

@@ -97,7 +97,7 @@ Result<Bounds> swept_bounds(RenderJob& job, const RenderOptions& options) {
 
 std::optional<Camera> film_camera(const Scene& scene, const Bounds& bounds, const FilmOptions& film, float aspect,
                                   const ViewSettings& view) {
-    if (!film.wanted() || bounds.empty || (film.turntable == 0 && !film.animates())) return std::nullopt;
+    if (!film.moves() || bounds.empty) return std::nullopt;
     if (film.turntable == 0) return frame_bounds(bounds, aspect, view);
     Profile profile(bounds);
     if (film.animates()) {

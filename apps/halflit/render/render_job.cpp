@@ -41,8 +41,9 @@ Result<void> check_size(PictureSize size, const Region& region) {
     return {};
 }
 
-/// replaces: the file has a camera that shows the scene small or not at all.
-std::string camera_choice(const Camera* of_file, const RenderOptions& options, bool replaces) {
+/// view: of the whole scene, in place of the usual one. replaces: the file has a camera that shows the scene small or not at all.
+std::string camera_choice(const Camera* of_file, const RenderOptions& options, const ViewSettings& view, const ViewSettings& usual,
+                          bool replaces) {
     if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
     if (options.cameras) {
         const CameraFile& file = *options.cameras;
@@ -55,8 +56,9 @@ std::string camera_choice(const Camera* of_file, const RenderOptions& options, b
         return fmt::format("camera: at {},{},{}", options.camera_position->x, options.camera_position->y, options.camera_position->z);
     if (!options.film.views.empty())
         return fmt::format("camera: the whole scene, {}, all sides at one scale", options.film.views.front().name);
-    return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}{}", options.view.azimuth_deg,
-                       options.view.elevation_deg, replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
+    return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}{}{}", view.azimuth_deg, view.elevation_deg,
+                       view == usual ? "" : fmt::format(", which shows more than {},{}", usual.azimuth_deg, usual.elevation_deg),
+                       replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
 }
 
 std::string pose_choice(const AnimationInfo& animation, int index, double time_s) {
@@ -96,6 +98,7 @@ Result<void> begin_light(RenderJob& job, const RenderOptions& options) {
         if (const auto added = add_environment(light, options); !added) return added;
     choice.ambient_linear = options.ambient_linear;
     choice.exposure = options.exposure;
+    choice.exposure_compensation_ev = options.exposure_compensation_ev;
     choice.studio = options.studio;
     if (choice.studio == StudioUse::for_dark && !options.lights.empty()) choice.studio = StudioUse::under_lights;
     if (options.ambient_linear && options.studio == StudioUse::for_dark) choice.studio = StudioUse::never;
@@ -110,10 +113,13 @@ Result<void> begin_light(RenderJob& job, const RenderOptions& options) {
     return {};
 }
 
-void warn_of_side(RenderJob& job, const ViewSettings& wanted, const ViewSettings& drawn) {
-    if (drawn.azimuth_deg != wanted.azimuth_deg || drawn.elevation_deg != wanted.elevation_deg)
-        job.warnings.push_back(fmt::format("from the usual side only backs are seen, which are not drawn; seen from {:g},{:g}",
-                                           drawn.azimuth_deg, drawn.elevation_deg));
+/// Keeps what was chosen for people to read, and warns where the usual side shows nothing.
+void tell_view(RenderJob& job, const RenderOptions& options, float aspect, const ViewSettings& drawn) {
+    job.film.view = drawn;
+    const ViewSettings usual = front_view(job.scene(), options.view);
+    if (drawn == usual || shows_surface(job.scene(), frame_scene(job.scene(), job.film.bounds, aspect, usual), aspect)) return;
+    job.warnings.push_back(fmt::format("from the usual side only backs are seen, which are not drawn; seen from {:g},{:g}",
+                                       drawn.azimuth_deg, drawn.elevation_deg));
 }
 
 /// Chooses size, camera, light and exposure: what the flags say, and choose_picture for the rest.
@@ -133,7 +139,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = choice->camera;
     job.film.framed |= choice->framed;
-    if (choice->framed) warn_of_side(job, front_view(job.scene(), options.view), choice->view);
+    if (choice->framed) tell_view(job, options, static_cast<float>(job.width) / static_cast<float>(job.height), choice->view);
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
     job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
@@ -248,11 +254,10 @@ Result<PictureRequest> request_of(RenderJob& job, const RenderOptions& options, 
     if (request.frame || (!options.camera && choose_camera(job.scene(), bounds) == nullptr)) {
         const PictureSize size = options.size.value_or(usual);
         const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-        const ViewSettings front = front_view(job.scene(), options.view);
-        request.camera = film_camera(job.scene(), bounds, options.film, aspect, front);
-        if (request.camera && !options.own_view() && !shows_surface(job.scene(), *request.camera, aspect)) {
-            const ViewSettings view = visible_side(job.scene(), bounds, aspect, front);
-            warn_of_side(job, front, view);
+        if (options.film.moves() && !bounds.empty) {
+            const ViewSettings view =
+                options.own_view() ? front_view(job.scene(), options.view) : choose_view(job.scene(), bounds, aspect, options.view);
+            tell_view(job, options, aspect, view);
             request.camera = film_camera(job.scene(), bounds, options.film, aspect, view);
         }
     }
@@ -263,8 +268,9 @@ Result<PictureRequest> request_of(RenderJob& job, const RenderOptions& options, 
 void tell_choices(RenderJob& job, const RenderOptions& given) {
     const std::vector<Camera>& cameras = job.scene().cameras;
     const bool of_file = job.film.file_camera >= 0, whole = given.own_view() || given.views_parts() || given.film.turntable > 0;
+    const ViewSettings usual = front_view(job.scene(), given.view);
     job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
-                                        !of_file && !cameras.empty() && !whole));
+                                        job.film.view.value_or(usual), usual, !of_file && !cameras.empty() && !whole));
     job.choices.push_back(fmt::format("lights: {}{}{}{}", job.light.all_lights().size(),
                                       job.light.lights.size() > job.film.choice.light->lights.size() ? ", added by default" : "",
                                       job.light.environment == nullptr ? ""

@@ -46,12 +46,16 @@ ReadValue number(Target& target, float min, float max) {
     return parsed(target, [min, max](const std::string& text) { return parse_float(text, min, max); });
 }
 
-Result<void> read_exposure(std::optional<float>& exposure, const std::string& text) {
-    exposure.reset();
-    if (text == "auto") return {};
-    const auto ev = parse_float(text, -64.0f, 64.0f);
-    if (!ev) return fail(ErrorCode::usage, fmt::format("expected auto or a number from -64 to 64, found '{}'", text));
-    exposure = exposure_factor(*ev);
+Result<void> read_exposure(RenderOptions& options, const std::string& text) {
+    constexpr std::string_view kAuto = "auto";
+    const bool chosen = text.starts_with(kAuto);
+    const std::string number = chosen ? text.substr(kAuto.size()) : text;
+    const bool is_signed = number.starts_with('+') || number.starts_with('-');
+    const auto ev = chosen && number.empty() ? Result<float>(0.0f) : parse_float(number, -64.0f, 64.0f);
+    if (!ev || number.starts_with("+-") || (chosen && !number.empty() && !is_signed))
+        return fail(ErrorCode::usage, fmt::format("expected a number from -64 to 64, auto, or as auto+1 and auto-0.5, found '{}'", text));
+    options.exposure = chosen ? std::optional<float>() : exposure_factor(*ev);
+    options.exposure_compensation_ev = chosen ? *ev : 0.0f;
     return {};
 }
 
@@ -72,8 +76,9 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
          {"--background", "COLOR|environment",
           fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: the image of --env", kUsualBackground),
           [&s](const std::string& text) { return read_background(s, text); }},
-         {"--exposure", "EV|auto", "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default)",
-          [&o](const std::string& text) { return read_exposure(o.exposure, text); }}}};
+         {"--exposure", "EV|auto[+EV]",
+          "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default); auto+1, auto-0.5: stops brighter",
+          [&o](const std::string& text) { return read_exposure(o, text); }}}};
 }
 
 /// A flag of the view of the whole scene. Sets `given`.

@@ -84,6 +84,7 @@ struct RenderOptions {
     float environment_rotate_deg = 0.0f;
     bool may_want_reference = false;  ///< the environment keeps what --accuracy reference needs, though the accuracy is another
     std::optional<float> exposure;    ///< a factor; none: chosen from the lights
+    float exposure_compensation_ev = 0.0f;
 
     LoadOptions load;
     SceneKeeper* keeper = nullptr;  ///< loads the scene; null: load_scene() alone

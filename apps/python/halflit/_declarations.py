@@ -79,7 +79,7 @@ STRUCTS = {
         size_t size; const halflit_camera* camera; const char* scene_camera; double studio_turn_rad; int32_t width, height;
         int32_t frame; float azimuth_deg; float elevation_deg; float zoom; float fov_y_deg; int32_t orthographic; int32_t
         own_ambient; float ambient_color[3]; float exposure; int32_t add_lights; int32_t studio; int32_t any_side; double
-        margin_x, margin_y;
+        margin_x, margin_y; double exposure_compensation_ev;
 """,
     "halflit_execution": """
         size_t size; const char* isa; void* user; int32_t (*cancelled)(void* user); void (*on_tile)(void* user, int32_t x, int32_t

@@ -142,9 +142,9 @@ def settings_of(scene: Any, setup: Setup, options: Dict[Any, Any]) -> Any:
     apply_settings(settings, options)
     if options.get("shadow_fade") is not None:  # a length of the file's world
         settings.shadow_fade = real(options["shadow_fade"], "shadow_fade") * scene._world.scale
-    exposure = exposure_of(options)
-    if exposure is not None and options.get("setup") is not None:
-        settings.exposure = exposure
+    exposure, compensation_ev = exposure_of(options)
+    if options.get("setup") is not None:
+        settings.exposure = (settings.exposure if exposure is None else exposure) * 2.0**compensation_ev
     return settings
 
 

@@ -22,7 +22,7 @@ class ViewOptions(TypedDict, total=False):
     view: Union[str, Tuple[float, float]]
     fit: float
     exposure: float
-    ev: float
+    ev: Union[float, str]
     ambient: Color
     studio: str
     studio_turn: float
@@ -45,7 +45,7 @@ class PictureOptions(ViewOptions, total=False):
 
     The light that is chosen:
         exposure: factor on all light, above 0 (chosen)
-        ev: the same in stops, as the program's --exposure: exposure is 2 ** ev
+        ev: the same in stops, as the program's --exposure: exposure is 2 ** ev; "auto+1" and "auto-0.5": stops brighter than is chosen
         ambient: light from all around (none)
         studio: when the built-in studio lights the scene: "for_dark", if it has neither ambient light nor an environment; "under_lights",
             a share of it where the scene has lights, too; "always", in place of ambient light and environment; "never" (for_dark;
@@ -89,8 +89,9 @@ class PictureOptions(ViewOptions, total=False):
         soft_shadow_maps: points of a light that has a shadow_radius, each with maps of half that side: 4 to 64 (16)
         shadow_fade: soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
             (0)
-        sky_shadows: number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16
-            to 1024; 0, or without shadows: they cast none (0)
+        sky_shadows: Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16
+            to 1024. kSkyShadowsAuto: by a grid of at most 64 voxels on a side, which costs little; 3/10 of the light that is lost
+            comes back from other surfaces. 0, or without shadows: they cast none. (kSkyShadowsAuto)
         shadow_terminator_offset: look-ups on the smooth surface given by the vertex normals, for coarse meshes (False)
         emission_scale: factor on the light that all surfaces emit (not on colours of unlit materials) (1)
         edges: Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import re
 from typing import Any, Dict, Iterable, List, NoReturn, Optional, Tuple
 
 from . import _c
@@ -85,18 +86,23 @@ def checked_size(size: Any) -> Tuple[int, int]:
     return width, height
 
 
-def exposure_of(options: Dict[Any, Any]) -> Optional[float]:
-    """The factor that exposure or ev says; None: neither."""
+def exposure_of(options: Dict[Any, Any]) -> Tuple[Optional[float], float]:
+    """The factor that exposure or ev says, None: neither; and the stops that are added to it."""
     exposure, ev = options.get("exposure"), options.get("ev")
     if exposure is not None and ev is not None:
         raise UsageError("ev: cannot be combined with exposure, which is 2 ** ev")
+    if isinstance(ev, str):
+        stops = re.fullmatch(r"auto([+-][0-9]*\.?[0-9]+)?", ev)
+        if stops is None or not -64 <= float(stops[1] or 0) <= 64:
+            raise UsageError(f"ev: expected a number from -64 to 64, 'auto', or as 'auto+1' and 'auto-0.5', found {ev!r}")
+        return None, float(stops[1] or 0)
     if ev is not None:
         if not -64 <= real(ev, "ev") <= 64:
             raise UsageError(f"ev: expected -64 to 64, found {ev!r}")
-        return float(2.0 ** ctypes.c_float(ev).value)
+        return float(2.0 ** ctypes.c_float(ev).value), 0.0
     if exposure is not None and not 0 < real(exposure, "exposure") < math.inf:
         raise UsageError(f"exposure: expected a factor above 0, found {exposure!r}")
-    return exposure
+    return exposure, 0.0
 
 
 def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, Any]) -> Request:
@@ -122,7 +128,8 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
     elif options.get("fit") is not None:
         struct.margin_x, struct.margin_y = margins(options["fit"], size)
     struct.orthographic = has_parallel_rays(options)
-    struct.exposure = exposure_of(options) or 0.0
+    exposure, struct.exposure_compensation_ev = exposure_of(options)
+    struct.exposure = exposure or 0.0
     light_of(scene, options, struct)
     return Request(struct, camera, scene_camera)
 

@@ -32,8 +32,8 @@ bool choose(const char* label, T& value, std::span<const std::string_view> names
 }
 
 /// One of these numbers.
-bool choose_number(const char* label, int& value, std::span<const int> numbers, const char* name_of_zero) {
-    const auto name = [&](int n) { return n == 0 ? std::string(name_of_zero) : std::to_string(n); };
+bool choose_number(const char* label, int& value, std::span<const int> numbers, const char* name_of_zero, const char* name_of_one = "1") {
+    const auto name = [&](int n) { return n == 0 ? std::string(name_of_zero) : n == 1 ? std::string(name_of_one) : std::to_string(n); };
     bool changed = false;
     if (!ImGui::BeginCombo(label, name(value).c_str())) return false;
     for (const int number : numbers)
@@ -81,11 +81,11 @@ bool lobe_controls(Controls& c, bool has_own_lobes) {
 }
 
 bool highlight_and_shadow_controls(Controls& c) {
-    constexpr int kSkyShadows[] = {0, 16, 64, 256};
+    constexpr int kSkyShadows[] = {0, kSkyShadowsAuto, 16, 64, 256};
     bool changed = choose("specular", c.specular, cli::kSpecularNames);
     changed |= ImGui::Checkbox("normalize highlights", &c.normalize_specular);
     changed |= choose("shadows", c.shadows, cli::kShadowModeNames);
-    changed |= choose_number("sky shadows", c.sky_shadows, kSkyShadows, "off");
+    changed |= choose_number("sky shadows", c.sky_shadows, kSkyShadows, "off", "auto");
     return changed;
 }
 

@@ -68,15 +68,13 @@ function show_state(state) {
   say_value(form.rotate, `${state.rotate}°`);
   say_value(form.sun_size, `${state.sun_size}°`);
   say_value(form.sh_order, state.sh_order || "auto");
-  form.exposure_chosen.checked = state.exposure === "";
-  say_value(form.exposure, state.exposure === "" ? "auto" : `${state.exposure} EV`);
+  say_value(form.exposure, `auto${state.exposure > 0 ? "+" : ""}${state.exposure || ""}`);
   say_value(form.time, `${digits(state.time, 3)} s`);
 }
 
 // The state after a change of one control.
 function state_of_control(state, input) {
   const value = input.type === "checkbox" ? input.checked : is_slider(input) || typeof kDefaults[input.name] === "number" ? +input.value : input.value;
-  if (input.name === "exposure_chosen") return { ...state, exposure: value ? "" : +form.exposure.value };
   const next = { ...state, [input.name]: value };
   if (input.name === "lobe") next.power = "";  // the name's own again
   const model = lobe_model(state.lobe);

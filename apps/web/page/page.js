@@ -109,7 +109,6 @@ function say_facts() {
   form.querySelector('label[data-for="time"]').hidden = !(end > 0);
   form.time.max = end || 1;
   form.time.step = (end || 1) / 200;
-  if (state.exposure === "") form.exposure.value = Math.log2(report.exposure);
 }
 
 async function show_lobes() {

@@ -4,9 +4,9 @@ const kDefaults = {
   scene: "demo", size: "640x360", samples: 4, view: "", time: 0,
   lobe: "", wrap: kLibrary.usual_wrap, power: "", normalize: false,
   specular: "blinn", specular_normalize: true,
-  scene_lights: true, lights: "", shadows: "soft-split", sun_size: 0, sky_shadows: 0,
+  scene_lights: true, lights: "", shadows: "soft-split", sun_size: 0, sky_shadows: 1,
   env: "", rotate: 0, show_env: false, sh_order: 0,
-  exposure: "", tonemap: "neutral", budget: 0, ground: false,
+  exposure: 0, tonemap: "neutral", budget: 0, ground: false,
 };
 
 const lobe_model = (name) => kLibrary.lobes.find((lobe) => lobe.name === name);
@@ -86,12 +86,12 @@ function flags_of(state) {
   for (const light of lights_of(state)) add("--light", light_flag(light));
   if (state.shadows !== kDefaults.shadows) add("--shadows", state.shadows);
   if (state.sun_size > 0) add("--sun-size", digits(state.sun_size));
-  if (state.sky_shadows > 0) add("--sky-shadows", state.sky_shadows);
+  if (state.sky_shadows !== 1) add("--sky-shadows", state.sky_shadows);
   if (state.env) add("--env", file_word(state.env));
   if (state.rotate != 0) add("--env-rotate", digits(state.rotate));
   if (state.show_env) add("--background", "environment");
   if (state.sh_order > 0) add("--sh-order", state.sh_order);
-  if (state.exposure !== "") add("--exposure", digits(state.exposure));
+  if (state.exposure !== 0) add("--exposure", `auto${state.exposure > 0 ? "+" : ""}${digits(state.exposure)}`);
   if (state.tonemap !== kDefaults.tonemap) add("--tonemap", state.tonemap);
   if (state.budget > 0) add("--max-error", digits(state.budget));
   if (state.ground) flags.push("--ground");
@@ -125,7 +125,7 @@ const kAllowed = {
   env: (text) => ["", "studio", "sky", "none"].includes(text) || kSkyName.test(text),
   lights: (text) => lights_of({ lights: text }).every((light) => /^#[0-9a-f]{6}$/i.test(light.color)),
 };
-const kNumberOrEmpty = ["power", "exposure"];
+const kNumberOrEmpty = ["power"];
 
 // The state of a link, which anybody may have written: what is not allowed has its default.
 function state_of_link(text) {

@@ -25,12 +25,13 @@ enum class StudioUse : std::uint8_t {
 
 /// The caller's part of a choice; empty members are chosen.
 struct AutoOptions {
-    std::optional<Camera> camera{};  ///< the view; empty: choose_camera()'s, or else a view of the whole scene
-    bool frame = false;              ///< a view of the whole scene, whatever cameras the scene has
-    ViewSettings view{};  ///< of a view of the whole scene; with the usual angles, from a side that shows something (visible_side)
+    std::optional<Camera> camera{};          ///< the view; empty: choose_camera()'s, or else a view of the whole scene
+    bool frame = false;                      ///< a view of the whole scene, whatever cameras the scene has
+    ViewSettings view{};                     ///< of a view of the whole scene; with the usual angles, choose_view()'s
     std::optional<Lighting> light{};         ///< the light to begin with; empty: the scene's own
     std::optional<Vec3f> ambient_linear{};   ///< ambient light from all directions; empty: chosen
     std::optional<float> exposure{};         ///< factor on all light; empty: chosen
+    float exposure_compensation_ev = 0.0f;   ///< stops brighter than that, given or chosen
     bool add_lights = true;                  ///< a scene without any light gets some
     StudioUse studio = StudioUse::for_dark;  ///< the built-in studio's part in that
     double studio_turn_rad = 0.0;            ///< turns the studio about the vertical, counter-clockwise seen from above
@@ -58,8 +59,8 @@ struct PictureChoice : AutoSetup {
     int scene_camera = -1;  ///< index into Scene::cameras of the view; -1: another camera
 };
 
-/// Four samples, the dark grey background #3a3f47, the neutral tone curve, textures filtered along footprints up to four times as long as
-/// wide, and otherwise the defaults.
+/// Four samples, the dark grey background #3a3f47, the neutral tone curve, sky shadows by a grid, textures filtered along footprints up to
+/// four times as long as wide, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
 /// Azimuth of the side that the scene faces (Scene::faces_back), degrees: what named views are relative to.

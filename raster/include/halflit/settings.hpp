@@ -32,6 +32,9 @@ enum class EdgeChoice : std::uint8_t {
 /// Edges behind surfaces: left out, or dashed, thinner and paler.
 enum class HiddenEdges : std::uint8_t { none, dashed };
 
+/// Settings::sky_shadows: by a coarse grid.
+inline constexpr int kSkyShadowsAuto = 1;
+
 /// Everything besides scene, camera and size that decides a pixel.
 struct Settings {
     Region region{};                      ///< part of the picture to draw
@@ -54,8 +57,9 @@ struct Settings {
     int soft_shadow_maps = 16;
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
     float shadow_fade = 0.0f;
-    /// number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024; 0, or
-    /// without shadows: they cast none
+    /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024.
+    /// kSkyShadowsAuto: by a grid of at most 64 voxels on a side, which costs little; 3/10 of the light that is lost comes back from other
+    /// surfaces. 0, or without shadows: they cast none.
     int sky_shadows = 0;
     /// Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide them, glass
     /// does not; lines lie on surfaces that they touch. Points at one place are one, as files split vertices.

@@ -605,8 +605,9 @@ typedef struct halflit_settings {
     int32_t soft_shadow_maps;
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap (0)
     float shadow_fade;
-    /// number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024; 0,
-    /// or without shadows: they cast none (0)
+    /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024.
+    /// kSkyShadowsAuto: by a grid of at most 64 voxels on a side, which costs little; 3/10 of the light that is lost comes back
+    /// from other surfaces. 0, or without shadows: they cast none. (0)
     int32_t sky_shadows;
     /// look-ups on the smooth surface given by the vertex normals, for coarse meshes (0)
     int32_t shadow_terminator_offset;
@@ -644,24 +645,25 @@ enum { HALFLIT_STUDIO_FOR_DARK = 0, HALFLIT_STUDIO_ALWAYS = 1, HALFLIT_STUDIO_NE
 /// What the caller of halflit_choose_picture() decides; the rest is chosen. Defaults in parentheses.
 typedef struct halflit_picture_request {
     size_t size;
-    const halflit_camera* camera;  ///< the view; null: see scene_camera (null)
-    const char* scene_camera;      ///< the view: a camera of the scene, by its name, or else its index; null: the first, if it shows the
-                                   ///< scene well, or else a view of the whole scene (null)
-    double studio_turn_rad;        ///< turns the studio about the vertical, counter-clockwise seen from above (0)
-    int32_t width, height;         ///< pixels; 0, 0: 1280 x 720, reduced to the shape of the camera (0, 0)
-    int32_t frame;                 ///< without a camera: a view of the whole scene, whatever cameras the scene has (0)
-    float azimuth_deg;             ///< of a view of the whole scene, as elevation_deg and zoom: see halflit_camera_frame (35)
-    float elevation_deg;           ///< above the horizon, -90 to 90 (20)
-    float zoom;                    ///< 2 makes things twice as large (1)
-    float fov_y_deg;               ///< of a view of the whole scene: full vertical angle before the zoom (35)
-    int32_t orthographic;          ///< of a view of the whole scene: parallel rays (0)
-    int32_t own_ambient;           ///< ambient_color is the light from all around (0)
-    float ambient_color[3];        ///< the same from above and below
-    float exposure;                ///< factor on all light; 0: chosen (0)
-    int32_t add_lights;            ///< a scene without any light gets some (1)
-    int32_t studio;                ///< HALFLIT_STUDIO (for dark)
-    int32_t any_side;              ///< of a view of the whole scene, as the margins: see halflit_view (0)
-    double margin_x, margin_y;     ///< shares of half the picture that stay free, 0 to 0.9 (0.08)
+    const halflit_camera* camera;     ///< the view; null: see scene_camera (null)
+    const char* scene_camera;         ///< the view: a camera of the scene, by its name, or else its index; null: the first, if it shows the
+                                      ///< scene well, or else a view of the whole scene (null)
+    double studio_turn_rad;           ///< turns the studio about the vertical, counter-clockwise seen from above (0)
+    int32_t width, height;            ///< pixels; 0, 0: 1280 x 720, reduced to the shape of the camera (0, 0)
+    int32_t frame;                    ///< without a camera: a view of the whole scene, whatever cameras the scene has (0)
+    float azimuth_deg;                ///< of a view of the whole scene, as elevation_deg and zoom: see halflit_camera_frame (35)
+    float elevation_deg;              ///< above the horizon, -90 to 90 (20)
+    float zoom;                       ///< 2 makes things twice as large (1)
+    float fov_y_deg;                  ///< of a view of the whole scene: full vertical angle before the zoom (35)
+    int32_t orthographic;             ///< of a view of the whole scene: parallel rays (0)
+    int32_t own_ambient;              ///< ambient_color is the light from all around (0)
+    float ambient_color[3];           ///< the same from above and below
+    float exposure;                   ///< factor on all light; 0: chosen (0)
+    int32_t add_lights;               ///< a scene without any light gets some (1)
+    int32_t studio;                   ///< HALFLIT_STUDIO (for dark)
+    int32_t any_side;                 ///< of a view of the whole scene, as the margins: see halflit_view (0)
+    double margin_x, margin_y;        ///< shares of half the picture that stay free, 0 to 0.9 (0.08)
+    double exposure_compensation_ev;  ///< stops brighter than the exposure, given or chosen, -64 to 64 (0)
 } halflit_picture_request;
 HALFLIT_C_API int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
 

@@ -1,0 +1,101 @@
+// Look-ups in the grid of what hides the surroundings: the masks of the eight points of the lattice around a fragment, and for each
+// direction the share of them that it is hidden from. Points at the back of the fragment's plane do not count.
+#pragma once
+
+#include "shading/kernels/vector.hpp"
+#include "shading/plan/plan.hpp"
+
+#include <cstdint>
+
+namespace halflit {
+inline namespace HALFLIT_ISA_NAMESPACE {
+
+struct GridPoint {
+    I masks[8];
+    F weights[8];
+    F weight;  ///< their sum; 0: nothing is hidden
+};
+
+/// `normal`: of the surface, unit.
+HALFLIT_INLINE GridPoint grid_point(const shading::SkyGridPlan& grid, V3 position, V3 normal) {
+    const F scale(grid.per_length), one(1.0f), none(0.0f), offset(shading::kGridOffset);
+    const auto along = [&](F p, F n, int axis, F& first, F& part, F& below) __attribute__((always_inline)) {
+        const F place = (p - F(grid.origin[axis])) * scale, at = mad(n, offset, place);
+        const F last(static_cast<float>(grid.size[axis] - 1));
+        const M in = (at >= none) & (at < last);
+        const F held = sel(in, at, none);
+        first = vfloor(held);
+        part = held - first;
+        below = first - place;
+        return in;
+    };
+    F x, y, z, u, v, w, below_x, below_y, below_z;
+    const M inside = along(position.x, normal.x, 0, x, u, below_x) & along(position.y, normal.y, 1, y, v, below_y) &
+                     along(position.z, normal.z, 2, z, w, below_z);
+    // At most 2^15 points: indices are exact in float.
+    const float row = static_cast<float>(grid.size[0]), layer = static_cast<float>(grid.size[0] * grid.size[1]);
+    const I first = round_even(mad(z, F(layer), mad(y, F(row), x)));
+    const F height = ((normal.x * below_x + normal.y * below_y) + normal.z * below_z) - F(shading::kGridClearance);
+    GridPoint out;
+    F sum(0.0f);
+    for (int k = 0; k < 8; ++k) {
+        const int step = (k & 1) + (k >> 1 & 1) * grid.size[0] + (k >> 2) * grid.size[0] * grid.size[1];
+        F above = height;
+        if ((k & 1) != 0) above = above + normal.x;
+        if ((k & 2) != 0) above = above + normal.y;
+        if ((k & 4) != 0) above = above + normal.z;
+        const F linear = (((k & 1) != 0 ? u : one - u) * ((k & 2) != 0 ? v : one - v)) * ((k & 4) != 0 ? w : one - w);
+        out.masks[k] = gather(grid.masks, first + I(step));
+        out.weights[k] = linear * clamp(above, none, one);
+        sum = sum + out.weights[k];
+    }
+    out.weight = sel(inside, sum, none);
+    return out;
+}
+
+/// Sum of the weights of the points from which a direction is hidden.
+HALFLIT_INLINE F hidden_weight(const GridPoint& at, int direction) {
+    const I bit(static_cast<std::int32_t>(std::uint32_t{1} << direction));
+    F sum(0.0f);
+    for (int k = 0; k < 8; ++k) sum = sum + sel(equal(at.masks[k] & bit, I(0)), F(0.0f), at.weights[k]);
+    return sum;
+}
+
+/// Weights of the points too small to count.
+inline constexpr float kLeastGridWeight = 1e-3f;
+
+/// Share in [0, 1] of the light from a direction that is hidden.
+HALFLIT_INLINE F hidden_share(const GridPoint& at, int direction) {
+    const F share = vdiv(hidden_weight(at, direction), vmax(at.weight, F(kLeastGridWeight)));
+    return sel(at.weight > F(kLeastGridWeight), share, F(0.0f));
+}
+
+/// Share of the light of the surroundings that reaches a surface, in [sky_bounce, 1]. `normal`: that light is received by.
+HALFLIT_INLINE F seen_in_grid(const shading::ShadingPlan& frame, V3 position, V3 surface_normal, V3 normal) {
+    const shading::SkyGridPlan& grid = frame.sky_grid;
+    const GridPoint at = grid_point(grid, position, surface_normal);
+    I all(0);
+    for (int k = 0; k < 8; ++k) all = all | at.masks[k];
+    alignas(64) std::int32_t lanes[kWidth];
+    store(lanes, sel(at.weight > F(kLeastGridWeight), all, I(0)));
+    std::uint32_t directions = 0;
+    for (int l = 0; l < kWidth; ++l) directions |= static_cast<std::uint32_t>(lanes[l]);
+    const F none(0.0f);
+    F hidden(0.0f);
+    for (const shading::LightPlan& light : frame.sky) {
+        if ((directions >> light.source & 1u) == 0) continue;
+        const F received = dot(normal, broadcast(light.to_light));
+        if (!any(received > none)) continue;
+        hidden = hidden + (vmax(received, none) * F(light.brightness)) * hidden_weight(at, light.source);
+    }
+    const float(&t)[10] = grid.total;
+    const F linear = ((F(t[1]) * normal.x + F(t[2]) * normal.y) + F(t[3]) * normal.z) + F(t[0]);
+    const F squares = (F(t[4]) * normal.x * normal.x + F(t[5]) * normal.y * normal.y) + F(t[6]) * normal.z * normal.z;
+    const F mixed = (F(t[7]) * normal.x * normal.y + F(t[8]) * normal.x * normal.z) + F(t[9]) * normal.y * normal.z;
+    const F total = vmax(linear + (squares + mixed), F(grid.least_total));
+    const F share = vmin(vdiv(hidden, vmax(at.weight, F(kLeastGridWeight)) * total), F(1.0f));
+    return F(1.0f) - sel(at.weight > F(kLeastGridWeight), share, none) * F(1.0f - frame.sky_bounce);
+}
+
+}  // namespace HALFLIT_ISA_NAMESPACE
+}  // namespace halflit
