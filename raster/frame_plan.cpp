@@ -226,7 +226,7 @@ Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Lightin
                                         const ShadowSizes& sizes, ShadowViews& shadows, FramePlanMemory& memory) {
     if (!has_sky_shadows(light, settings)) return std::vector<LightPlan>{};
     const bool in_grid = settings.sky_shadows == kSkyShadowsAuto;
-    const int directions = in_grid ? shading::kGridDirections : settings.sky_shadows, rows = in_grid ? 24 : shading::SkyCells{}.rows;
+    const int directions = in_grid ? shading::kGridDirections : settings.sky_shadows, rows = in_grid ? 16 : shading::SkyCells{}.rows;
     if (memory.sky_cells.rows != rows) memory.sky_cells = {rows, nullptr, {}};
     std::vector<LightPlan> lights =
         shading::plan_lights(shading::sky_lights(directions, light.environment.get(), light.ambient, memory.sky_cells));

@@ -78,16 +78,9 @@ void plan_sky_grid(ShadingPlan& plan) {
     for (const LightPlan& light : plan.sky) {
         const double l = double{light.brightness}, x = double{light.to_light[0]}, y = double{light.to_light[1]},
                      z = double{light.to_light[2]};
-        const double terms[10] = {3.0 / 32,
-                                  x / 2,
-                                  y / 2,
-                                  z / 2,
-                                  15.0 / 32 * x * x,
-                                  15.0 / 32 * y * y,
-                                  15.0 / 32 * z * z,
-                                  15.0 / 16 * x * y,
-                                  15.0 / 16 * x * z,
-                                  15.0 / 16 * y * z};
+        const double once = kGridLobe.linear, twice = kGridLobe.square;
+        const double terms[10] = {kGridLobe.constant, once * x,      once * y,          once * z,          twice * x * x,
+                                  twice * y * y,      twice * z * z, 2 * twice * x * y, 2 * twice * x * z, 2 * twice * y * z};
         for (int k = 0; k < 10; ++k) total[k] += l * terms[k];
         all += l;
     }

@@ -3,6 +3,7 @@
 #include "raster/scene/instance_material.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
+#include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/sky_lights.hpp"
 
@@ -40,6 +41,8 @@ struct BitGrid {
 
     BitGrid(int layer_count, int row_count)
         : layers(layer_count), rows(row_count), words(static_cast<std::size_t>(layer_count) * static_cast<std::size_t>(row_count)) {}
+    [[nodiscard]] Word* layer(int at) { return &words[index(at, 0)]; }
+    [[nodiscard]] const Word* layer(int at) const { return &words[index(at, 0)]; }
     [[nodiscard]] Word& row(int layer, int at) { return words[index(layer, at)]; }
     [[nodiscard]] Word row(int layer, int at) const { return words[index(layer, at)]; }
 
@@ -150,16 +153,22 @@ void sweep(const BitGrid& filled, double bit, double row, bool from_last, BitGri
     for (int k = 0; k < filled.layers; ++k) {
         const int layer = from_last ? filled.layers - 1 - k : k, next = from_last ? layer + 1 : layer - 1;
         if (k == 0) {
-            for (int r = 0; r < hidden.rows; ++r) hidden.row(layer, r) = 0;
+            std::fill_n(hidden.layer(layer), hidden.rows, 0);
             continue;
         }
         const int bits = shift(bit, k - 1), rows = shift(row, k - 1);
-        for (int r = 0; r < filled.rows; ++r) {
-            const int there = r + rows;
-            Word word = 0;
-            if (there >= 0 && there < filled.rows) word = filled.row(next, there) | hidden.row(next, there);
-            hidden.row(layer, r) = bits == 0 ? word : bits > 0 ? word >> bits : word << -bits;
-        }
+        const int first = std::max(0, -rows), end = std::min(filled.rows, filled.rows - rows);
+        const Word* const solid = filled.layer(next);
+        const Word* const before = hidden.layer(next);
+        Word* const out = hidden.layer(layer);
+        std::fill_n(out, first, 0);
+        std::fill(out + end, out + filled.rows, 0);
+        if (bits > 0)
+            for (int r = first; r < end; ++r) out[r] = (solid[r + rows] | before[r + rows]) >> 1;
+        else if (bits < 0)
+            for (int r = first; r < end; ++r) out[r] = (solid[r + rows] | before[r + rows]) << 1;
+        else
+            for (int r = first; r < end; ++r) out[r] = solid[r + rows] | before[r + rows];
     }
 }
 
@@ -182,7 +191,7 @@ public:
         }
     }
 
-    /// Calls keep(row, bits) for each row of the lattice: those of every kStride-th layer and row.
+    /// Calls keep(row, bits) for each row of the lattice, those of every kStride-th layer and row: bits of what is hidden this way.
     template <class Keep>
     void each_row(Vec3d towards, const Keep& keep) {
         const double x = towards.x, y = towards.y, z = towards.z, ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
@@ -212,6 +221,18 @@ private:
     BitGrid hidden_by_z_, hidden_by_y_, hidden_by_x_;
     int size_[3];
 };
+
+/// Unit vectors about a direction, a third of a turn from each other: so the edges of what hides it are soft.
+std::array<Vec3d, shading::kGridWays> ways_about(Vec3d towards, int direction) {
+    const Vec3d side = std::abs(towards.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+    const Vec3d u = cross(side, towards) * (1.0 / length(cross(side, towards))), v = cross(towards, u);
+    std::array<Vec3d, shading::kGridWays> ways;
+    for (int k = 0; k < shading::kGridWays; ++k) {
+        const SinCos turn = sin_cos(2.0 * kPi * (static_cast<double>(k) / shading::kGridWays + 0.618 * direction));
+        ways[static_cast<std::size_t>(k)] = towards + (u * turn.cos + v * turn.sin) * shading::kGridWayTangent;
+    }
+    return ways;
+}
 
 /// The next one of 1, 1.25, 1.5 and 1.75 times the powers of 2.
 double rounded_up(double x) {
@@ -254,31 +275,35 @@ void make_sky_grid(const PreparedData& scene, SkyGrid& grid) {
         grid.plan.origin[axis] = static_cast<float>(origin[axis] + 0.5 / per_length);
     }
     grid.plan.per_length = static_cast<float>(per_length / kStride);
-    grid.masks.resize(static_cast<std::size_t>(points[0]) * static_cast<std::size_t>(points[1]) * static_cast<std::size_t>(points[2]));
+    grid.masks.resize(std::size_t{2} * static_cast<std::size_t>(points[0]) * static_cast<std::size_t>(points[1]) *
+                      static_cast<std::size_t>(points[2]));
     grid.plan.masks = grid.masks.data();
+    // A row's words: two bits of each direction, those of the second half from word 32 on.
     const int rows = points[1] * points[2];
-    std::vector<Word> bits(static_cast<std::size_t>(rows) * shading::kGridDirections);
+    std::vector<std::array<Word, 64>> counts(static_cast<std::size_t>(rows));
     HiddenVoxels hidden(filled.bits(), size);
-    std::size_t direction = 0;
+    int direction = 0;
     for (const Vec3d& towards : shading::sky_directions(shading::kGridDirections)) {
-        hidden.each_row(towards,
-                        [&](int row, Word word) { bits[static_cast<std::size_t>(row) * shading::kGridDirections + direction] = word; });
+        const auto low_bit = static_cast<std::size_t>(32 * (direction / shading::kGridInWord) + 2 * (direction % shading::kGridInWord));
+        for (const Vec3d& way : ways_about(towards, direction))
+            hidden.each_row(way, [&](int row, Word word) {
+                Word &ones = counts[static_cast<std::size_t>(row)][low_bit], &twos = counts[static_cast<std::size_t>(row)][low_bit + 1];
+                twos ^= ones & word;
+                ones ^= word;
+            });
         ++direction;
     }
-    // Two rows at a time: 32 directions of each.
-    static_assert(2 * shading::kGridDirections == 64);
-    for (int row = 0; row < rows; row += 2) {
-        std::array<Word, 64> columns{};
-        const auto begin = bits.begin() + row * std::ptrdiff_t{shading::kGridDirections};
-        const auto end = begin + std::min(2, rows - row) * std::ptrdiff_t{shading::kGridDirections};
-        if (std::all_of(begin, end, [](Word word) { return word == 0; })) continue;
-        std::copy(begin, end, columns.begin());
+    std::int32_t* out = grid.masks.data();
+    for (std::array<Word, 64>& columns : counts) {
+        if (std::all_of(columns.begin(), columns.end(), [](Word word) { return word == 0; })) {
+            out += 2 * points[0];
+            continue;
+        }
         transpose(columns);
-        std::int32_t* const out = &grid.masks[static_cast<std::size_t>(row) * static_cast<std::size_t>(points[0])];
         for (int x = 0; x < points[0]; ++x) {
-            const Word of_both = columns[static_cast<std::size_t>(kStride * x)];
-            out[x] = static_cast<std::int32_t>(static_cast<std::uint32_t>(of_both));
-            if (row + 1 < rows) out[points[0] + x] = static_cast<std::int32_t>(static_cast<std::uint32_t>(of_both >> 32));
+            const Word words = columns[static_cast<std::size_t>(kStride * x)];
+            *out++ = static_cast<std::int32_t>(static_cast<std::uint32_t>(words));
+            *out++ = static_cast<std::int32_t>(static_cast<std::uint32_t>(words >> 32));
         }
     }
 }

@@ -115,7 +115,7 @@ double around_codes(const CodeCosts& costs, const ShadingPlan& plan, const Mater
         for (int k = first; k + 1 < kReflectionLevels; ++k) between = std::max(between, reflections->level[k].absolute);
         codes += costs.absolute(sheen.color * exposure * (angle * steps + levels * between));
     }
-    if (!plan.sky.empty()) codes += costs.absolute(sheen.color * sky_share_error(plan, material, s.normal_error) * most);
+    if (!plan.sky.empty()) codes += sky_share_codes(costs, plan, material, s.normal_error, sheen.color * most);
     codes += costs.absolute(sheen.color * sheen.nodes * slopes.albedo * most);
     most *= sheen.color;
     return codes + codes_of(costs, s.occlusion, most);

@@ -308,10 +308,16 @@ bool may_split(const ShadingPlan& plan, const MaterialPlan& material) {
     return plan.shadow_mode == ShadowMode::soft_split && material.shadow_fade_scale > 0.0f && (material.stages & kStageLights) != 0;
 }
 
-double sky_share_error(const ShadingPlan& plan, const MaterialPlan& material, double normal_error) {
-    const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
-    if (plan.sky_grid.masks != nullptr) return kGridSlope * (sums + normal_error);
-    return sums + 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0) * normal_error;
+double sky_share_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, double normal_error, double most) {
+    if (plan.sky_grid.masks == nullptr) {
+        const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
+        const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
+        return costs.absolute((sums + slope * normal_error) * most);
+    }
+    // 45 roundings of a sum without signs; ten of T(n), whose terms are at most 13 times as large; and those of n.d - a, in the sum of L_d,
+    // which is at most 13 T(n). The share is never below kGridBounce, so the error is one of the light.
+    const double share_error = (1.0 - double{kGridBounce}) * (1.5e-5 + kGridSlope * normal_error);
+    return costs.relative(share_error / double{kGridBounce});
 }
 
 double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const ShadingPlan& plan, const Surface& s,
@@ -348,13 +354,10 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
         if (!plan.sky.empty()) {
             // Of mirrored light weights change no faster than twice the inverse width of the narrowest focus, by a factor of the lights in
             // reach.
-            const double diffuse_error = sky_share_error(plan, material, s.normal_error);
-            const double mirrored_error =
-                plan.sky_grid.masks != nullptr
-                    ? diffuse_error
-                    : sky_share_error(plan, material, 0.0) + 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error;
-            codes += costs.absolute(s.albedo * diffuse_error * diffuse.most);
-            codes += costs.absolute(share * mirrored_error * mirrored.most);
+            codes += sky_share_codes(costs, plan, material, s.normal_error, s.albedo * diffuse.most);
+            const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
+            const double focused = 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error;
+            if (plan.sky_grid.masks == nullptr) codes += costs.absolute(share * (sums + focused) * mirrored.most);
         }
         diffuse_light += diffuse.most;
         shiny += mirrored.most;

@@ -51,9 +51,10 @@ struct Arriving {
 /// core are close, so an error of the lobe shows most there.
 [[nodiscard]] bool may_split(const ShadingPlan& plan, const MaterialPlan& material);
 
-/// Error of the share of diffuse light that sky shadows leave: of its sums' roundings, and of weights that change with the normal, no
-/// faster than a lobe's slope, or the grid's.
-[[nodiscard]] double sky_share_error(const ShadingPlan& plan, const MaterialPlan& material, double normal_error);
+/// Codes by which the share of diffuse light that sky shadows leave is wrong: by its sums' roundings, and by weights that change with the
+/// normal, no faster than a lobe's slope, or the grid's. most: of that light.
+[[nodiscard]] double sky_share_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, double normal_error,
+                                     double most);
 
 /// Codes that cannot be chosen: roundings, and the errors of textures. reflections: of the plan's map; null: there is none.
 [[nodiscard]] double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const ShadingPlan& plan, const Surface& s,

@@ -10,8 +10,10 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
+/// Of the eight points those that count for some lane. To leave one out changes no sum: it would add 0.
 struct GridPoint {
-    I masks[8];
+    int count = 0;
+    I masks[2][8];
     F weights[8];
     F weight;  ///< their sum; 0: nothing is hidden
 };
@@ -34,8 +36,11 @@ HALFLIT_INLINE GridPoint grid_point(const shading::SkyGridPlan& grid, V3 positio
                      along(position.z, normal.z, 2, z, w, below_z);
     // At most 2^15 points: indices are exact in float.
     const float row = static_cast<float>(grid.size[0]), layer = static_cast<float>(grid.size[0] * grid.size[1]);
-    const I first = round_even(mad(z, F(layer), mad(y, F(row), x)));
+    const I first = shl<1>(round_even(mad(z, F(layer), mad(y, F(row), x))));
     const F height = ((normal.x * below_x + normal.y * below_y) + normal.z * below_z) - F(shading::kGridClearance);
+    // Mostly all lanes lie between the same eight points: then nothing is gathered.
+    const std::int32_t leading = first_lane(first);
+    const bool together = all(equal(first, I(leading)) | !inside);
     GridPoint out;
     F sum(0.0f);
     for (int k = 0; k < 8; ++k) {
@@ -45,20 +50,26 @@ HALFLIT_INLINE GridPoint grid_point(const shading::SkyGridPlan& grid, V3 positio
         if ((k & 2) != 0) above = above + normal.y;
         if ((k & 4) != 0) above = above + normal.z;
         const F linear = (((k & 1) != 0 ? u : one - u) * ((k & 2) != 0 ? v : one - v)) * ((k & 4) != 0 ? w : one - w);
-        out.masks[k] = gather(grid.masks, first + I(step));
-        out.weights[k] = linear * clamp(above, none, one);
-        sum = sum + out.weights[k];
+        const F weight = linear * clamp(above, none, one);
+        if (!any(weight > none)) continue;
+        for (int word = 0; word < 2; ++word)
+            out.masks[word][out.count] =
+                together ? I(grid.masks[leading + 2 * step + word]) : gather(grid.masks, first + I(2 * step + word));
+        out.weights[out.count++] = weight;
+        sum = sum + weight;
     }
     out.weight = sel(inside, sum, none);
     return out;
 }
 
-/// Sum of the weights of the points from which a direction is hidden.
+/// Sum of the weights of the points, each times the share that a direction is hidden from there.
 HALFLIT_INLINE F hidden_weight(const GridPoint& at, int direction) {
-    const I bit(static_cast<std::int32_t>(std::uint32_t{1} << direction));
+    const int word = direction / shading::kGridInWord, shift = 2 * (direction % shading::kGridInWord);
+    const I bits(3 << shift);
     F sum(0.0f);
-    for (int k = 0; k < 8; ++k) sum = sum + sel(equal(at.masks[k] & bit, I(0)), F(0.0f), at.weights[k]);
-    return sum;
+    for (int k = 0; k < at.count; ++k) sum = mad(to_float(at.masks[word][k] & bits), at.weights[k], sum);
+    // Two bits at any place are exact in float.
+    return sum * F(1.0f / (static_cast<float>(shading::kGridWays) * static_cast<float>(1 << shift)));
 }
 
 /// Weights of the points too small to count.
@@ -74,17 +85,21 @@ HALFLIT_INLINE F hidden_share(const GridPoint& at, int direction) {
 HALFLIT_INLINE F seen_in_grid(const shading::ShadingPlan& frame, V3 position, V3 surface_normal, V3 normal) {
     const shading::SkyGridPlan& grid = frame.sky_grid;
     const GridPoint at = grid_point(grid, position, surface_normal);
-    I all(0);
-    for (int k = 0; k < 8; ++k) all = all | at.masks[k];
-    alignas(64) std::int32_t lanes[kWidth];
-    store(lanes, sel(at.weight > F(kLeastGridWeight), all, I(0)));
-    std::uint32_t directions = 0;
-    for (int l = 0; l < kWidth; ++l) directions |= static_cast<std::uint32_t>(lanes[l]);
+    // Ways that are hidden from some point of some lane.
+    std::uint32_t ways[2];
+    for (int word = 0; word < 2; ++word) {
+        I all(0);
+        for (int k = 0; k < at.count; ++k) all = all | at.masks[word][k];
+        alignas(64) std::int32_t lanes[kWidth];
+        store(lanes, sel(at.weight > F(kLeastGridWeight), all, I(0)));
+        ways[word] = 0;
+        for (int l = 0; l < kWidth; ++l) ways[word] |= static_cast<std::uint32_t>(lanes[l]);
+    }
     const F none(0.0f);
     F hidden(0.0f);
     for (const shading::LightPlan& light : frame.sky) {
-        if ((directions >> light.source & 1u) == 0) continue;
-        const F received = dot(normal, broadcast(light.to_light));
+        if ((ways[light.source / shading::kGridInWord] >> (2 * (light.source % shading::kGridInWord)) & 3u) == 0) continue;
+        const F received = dot(normal, broadcast(light.to_light)) - F(static_cast<float>(shading::kGridWayTangent));
         if (!any(received > none)) continue;
         hidden = hidden + (vmax(received, none) * F(light.brightness)) * hidden_weight(at, light.source);
     }

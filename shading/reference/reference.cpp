@@ -309,8 +309,8 @@ double seen_in_grid(Vec3d n, const Surroundings& around) {
     for (std::size_t i = 0; i < around.sky.size(); ++i) {
         const LightPlan& light = around.sky[i];
         const double cosine = dot(n, Vec3d{light.to_light[0], light.to_light[1], light.to_light[2]}), l = double{light.brightness};
-        hidden += l * std::max(cosine, 0.0) * around.hidden_sky[i].hard;
-        total += l * (3.0 / 32 + cosine / 2 + 15.0 / 32 * cosine * cosine);
+        hidden += l * std::max(cosine - kGridWayTangent, 0.0) * around.hidden_sky[i].hard;
+        total += l * (kGridLobe.constant + kGridLobe.linear * cosine + kGridLobe.square * cosine * cosine);
         all += l;
     }
     return 1.0 - std::min(hidden / std::max({total, kLeastGridTotal * all, 1e-30}), 1.0) * (1.0 - double{kGridBounce});
