@@ -176,8 +176,9 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    setup.view = setup.framed ? choose_view(scene, bounds, aspect, options.view) : front_view(scene, options.view);
-    setup.camera = chosen != nullptr ? *chosen : frame_scene(scene, bounds, aspect, setup.view);
+    const FramedView seen =
+        chosen != nullptr ? FramedView{front_view(scene, options.view), *chosen} : choose_view(scene, bounds, aspect, options.view);
+    setup.view = seen.view, setup.camera = seen.camera;
     setup.settings = usual_settings();
     setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);

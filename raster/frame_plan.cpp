@@ -220,30 +220,40 @@ Settings beside_sky(const Lighting& light, Settings settings) {
     return settings;
 }
 
-/// Lights for sky shadows, with their maps, which are added to `shadows`. Light from all around reaches all of the scene, so its maps are
-/// not cut to what is seen.
-Result<std::vector<LightPlan>> plan_sky(const PreparedData& scene, const Lighting& light, const Settings& settings,
-                                        const ShadowSizes& sizes, ShadowViews& shadows, FramePlanMemory& memory) {
-    if (!has_sky_shadows(light, settings)) return std::vector<LightPlan>{};
+/// What stands for the light of the surroundings.
+struct SkyPlan {
+    std::vector<LightPlan> lights;
+    int directions = 0;
+    shading::SkyGridPlan grid;
+};
+
+/// Lights for sky shadows, with the grid, or with their maps, which are added to `shadows`. Light from all around reaches all of the scene,
+/// so its maps are not cut to what is seen.
+Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const Settings& settings, const ShadowSizes& sizes,
+                         ShadowViews& shadows, FramePlanMemory& memory) {
+    if (!has_sky_shadows(light, settings)) return SkyPlan{};
+    constexpr int kRows = 96, kRowsOfGrid = 16;  // of the cells that are given to the directions
     const bool in_grid = settings.sky_shadows == kSkyShadowsAuto;
-    const int directions = in_grid ? shading::kGridDirections : settings.sky_shadows, rows = in_grid ? 16 : shading::SkyCells{}.rows;
-    if (memory.sky_cells.rows != rows) memory.sky_cells = {rows, nullptr, {}};
-    std::vector<LightPlan> lights =
-        shading::plan_lights(shading::sky_lights(directions, light.environment.get(), light.ambient, memory.sky_cells));
+    if (in_grid) make_sky_grid(scene, memory.sky_grid);
+    if (in_grid && memory.sky_grid.masks.empty()) return SkyPlan{};
+    SkyPlan plan;
+    plan.directions = in_grid ? shading::kGridDirections : settings.sky_shadows;
+    plan.lights = shading::plan_lights(
+        shading::sky_lights(plan.directions, in_grid ? kRowsOfGrid : kRows, light.environment.get(), light.ambient, memory.sky_cells));
     if (in_grid) {
-        make_sky_grid(scene, memory.sky_grid);
-        if (memory.sky_grid.masks.empty()) return std::vector<LightPlan>{};
-        for (LightPlan& one : lights) one.shadow_map = shading::kInSkyGrid;
-        return lights;
+        for (LightPlan& one : plan.lights) one.shadow_map = shading::kInSkyGrid;
+        plan.grid = memory.sky_grid.place;
+        plan.grid.masks = memory.sky_grid.masks.data();
+        return plan;
     }
     Settings of_sky = settings;
     of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.texel_count * sizeof(float));
-    auto views = plan_shadow_views(lights, scene, nullptr, of_sky, {std::min(sizes.most, kSkyMapSize)});
+    auto views = plan_shadow_views(plan.lights, scene, nullptr, of_sky, {std::min(sizes.most, kSkyMapSize)});
     if (!views) return tl::unexpected<Error>(views.error());
     const std::vector<std::int32_t> maps = views->map_of_light;
     const auto before = static_cast<std::int32_t>(append(shadows, std::move(*views)));
-    for (std::size_t i = 0; i < maps.size(); ++i) lights[i].shadow_map = maps[i] < 0 ? -1 : maps[i] + before;
-    return lights;
+    for (std::size_t i = 0; i < maps.size(); ++i) plan.lights[i].shadow_map = maps[i] < 0 ? -1 : maps[i] + before;
+    return plan;
 }
 
 Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light, const Camera& camera, const Settings& settings, int width,
@@ -280,27 +290,24 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
         // To read a texel for its range takes some 2 ns; a light that is computed more cheaply saves about an eighth of that a pixel.
         facts.worth_texels = static_cast<double>(width) * height * (0.25 + 0.125 * static_cast<double>(lights.size()));
     }
-    plan.shading =
-        shading::plan_shading({.materials = scene.materials,
-                               .textures = scene.textures,
-                               .available_slots = prepared.available_slots(),
-                               .lights = lights,
-                               .ambient = light.ambient,
-                               .options = options,
-                               .environment = light.environment,
-                               .exposure = static_cast<double>(settings.exposure),
-                               .tone_curve = settings.tone_curve,
-                               .viewer = viewer_of(camera),
-                               .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps),
-                                           std::move(shadows->map_of_light), prepared.object_radii(), std::move(*sky),
-                                           settings.sky_shadows == kSkyShadowsAuto ? shading::kGridDirections : settings.sky_shadows,
-                                           settings.sky_shadows == kSkyShadowsAuto ? memory.sky_grid.plan : shading::SkyGridPlan{},
-                                           static_cast<double>(settings.shadow_fade)},
-                               .facts = budget ? &facts : nullptr,
-                               .drawn = &prepared.drawn_materials(),
-                               .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn,
-                               .looks = prepared.looks()},
-                              memory.shading);
+    plan.shading = shading::plan_shading({.materials = scene.materials,
+                                          .textures = scene.textures,
+                                          .available_slots = prepared.available_slots(),
+                                          .lights = lights,
+                                          .ambient = light.ambient,
+                                          .options = options,
+                                          .environment = light.environment,
+                                          .exposure = static_cast<double>(settings.exposure),
+                                          .tone_curve = settings.tone_curve,
+                                          .viewer = viewer_of(camera),
+                                          .shadows = {settings.shadows, settings.shadow_terminator_offset, std::move(shadows->maps),
+                                                      std::move(shadows->map_of_light), prepared.object_radii(), std::move(sky->lights),
+                                                      sky->directions, sky->grid, static_cast<double>(settings.shadow_fade)},
+                                          .facts = budget ? &facts : nullptr,
+                                          .drawn = &prepared.drawn_materials(),
+                                          .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn,
+                                          .looks = prepared.looks()},
+                                         memory.shading);
     plan.written = plan.picture.region;
     plan.cells = uses_cells(plan.shading);
     for (std::size_t i = 0; i < plan.shading.materials.size(); ++i) {
@@ -346,7 +353,9 @@ Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, c
 Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
                              int height, int tile_size) {
     FramePlanMemory memory;
-    return plan_frame(scene, light, camera, settings, width, height, tile_size, memory);
+    auto plan = plan_frame(scene, light, camera, settings, width, height, tile_size, memory);
+    if (plan) plan->shading.sky_grid.masks = nullptr;  // they end with the memory
+    return plan;
 }
 
 }  // namespace halflit::raster

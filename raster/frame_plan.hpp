@@ -63,7 +63,7 @@ struct FramePlanMemory {
 Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
                              int height, int tile_size, FramePlanMemory& memory);
 
-/// The same for callers that only read the plan: its shadow maps have no texels.
+/// The same for callers that only read the plan: its shadow maps have no texels, and its grid of sky shadows no masks.
 Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
                              int height, int tile_size = Execution{}.tile_size);
 

@@ -82,6 +82,10 @@ struct SettingValues {
         return out;
     }
     [[nodiscard]] constexpr bool is_truth() const { return names.data() == kOffOn; }
+    /// The word for a value; empty: it is written as a number.
+    [[nodiscard]] constexpr std::string_view word(double value) const {
+        return value == 0.0 ? zero : value == 1.0 ? one : std::string_view();
+    }
     [[nodiscard]] bool contains(double value) const;
     /// "1, 4, 8 or 16"; numbers in the flag's unit.
     [[nodiscard]] std::string expected() const;

@@ -73,7 +73,6 @@ void plan_environments(const PlanInputs& inputs, double budget_codes, bool bound
 
 /// Light from all directions that the grid has.
 void plan_sky_grid(ShadingPlan& plan) {
-    plan.sky_bounce = kGridBounce;
     double all = 0.0, total[10] = {};
     for (const LightPlan& light : plan.sky) {
         const double l = double{light.brightness}, x = double{light.to_light[0]}, y = double{light.to_light[1]},

@@ -59,15 +59,15 @@ std::vector<Vec3d> sky_directions(int n) {
     return directions;
 }
 
-std::vector<Light> sky_lights(int n, const Environment* environment, const Ambient& ambient, SkyCells& memory) {
+std::vector<Light> sky_lights(int n, int rows, const Environment* environment, const Ambient& ambient, SkyCells& kept) {
     const std::vector<Vec3d> directions = sky_directions(n);
-    const int rows = memory.rows;
     sh::Rotation turn = sh::rotation_about_y(0.0);
     if (environment == nullptr) {
-        memory = {rows, nullptr, cells_of_ambient(ambient, rows)};
+        kept = {nullptr, cells_of_ambient(ambient, rows)};
     } else {
         turn = sh::rotation_about_y(environment->rotate_rad);
-        if (memory.light != environment->light) memory = {rows, environment->light, cells_of_image(environment->light->image(), rows)};
+        if (kept.light != environment->light || kept.cells.size() != static_cast<std::size_t>(2 * rows * rows))
+            kept = {environment->light, cells_of_image(environment->light->image(), rows)};
     }
     std::vector<Vec3d> light(directions.size());
     for (int y = 0; y < rows; ++y)
@@ -79,7 +79,7 @@ std::vector<Light> sky_lights(int n, const Environment* environment, const Ambie
                 const double cosine = dot(d, directions[i]);
                 if (cosine > most) most = cosine, nearest = i;
             }
-            light[nearest] = light[nearest] + memory.cells[static_cast<std::size_t>(y * 2 * rows + x)];
+            light[nearest] = light[nearest] + kept.cells[static_cast<std::size_t>(y * 2 * rows + x)];
         }
     std::vector<Light> lights;
     for (std::size_t i = 0; i < directions.size(); ++i) {

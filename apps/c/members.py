@@ -118,7 +118,11 @@ def python_dict(text, name, left_out):
 def settings():
     """(name, C type, values, C++ default, usual default, documentation)."""
     table, sources = text_of(SETTINGS_TABLE), [text_of(path) for path in SETTINGS_SOURCES]
-    usual = dict(re.findall(r"settings\.((?:shading\.)?\w+) = ([\w:]+);", text_of(USUAL_SETTINGS)))
+    constants = dict(re.findall(r"^inline constexpr int (\w+) = (\d+);", sources[0], re.M))
+    usual = {
+        place: constants.get(value, value)
+        for place, value in re.findall(r"settings\.((?:shading\.)?\w+) = ([\w:]+);", text_of(USUAL_SETTINGS))
+    }
     members = {}  # place -> (type, default, documentation)
     for source, struct, prefix in ((sources[0], "struct Settings {", ""), (sources[1], "struct ShadingSettings {", "shading.")):
         body = source[source.index(struct) :]

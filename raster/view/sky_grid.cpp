@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 namespace halflit::raster {
 namespace {
@@ -119,7 +118,7 @@ private:
 bool hides(const Scene& scene, const Instance& instance) {
     if (!counts_for_views(scene, instance)) return false;
     const Material* const material = material_of(scene, instance);
-    return material == nullptr || (material->alpha_mode == AlphaMode::opaque && !material->transmits());
+    return material == nullptr || (material->alpha_mode == AlphaMode::opaque && !material->is_layer());
 }
 
 void fill(const PreparedData& prepared, FilledVoxels& filled) {
@@ -145,7 +144,7 @@ void fill(const PreparedData& prepared, FilledVoxels& filled) {
     }
 }
 
-/// Bits of voxels that something hides from a direction, `layer` of which is its largest component. All per layer; bit and row: the others.
+/// Finds the voxels that something hides one way, which goes on by one layer at a time; bit, row: how far it goes across a layer meanwhile.
 void sweep(const BitGrid& filled, double bit, double row, bool from_last, BitGrid& hidden) {
     const auto shift = [](double slope, int k) {
         return static_cast<int>(std::floor((k + 1) * slope + 0.5)) - static_cast<int>(std::floor(k * slope + 0.5));
@@ -191,7 +190,7 @@ public:
         }
     }
 
-    /// Calls keep(row, bits) for each row of the lattice, those of every kStride-th layer and row: bits of what is hidden this way.
+    /// Calls keep(row, bits) for each row of the lattice, which are those of every kStride-th layer and row. Bits: what is hidden this way.
     template <class Keep>
     void each_row(Vec3d towards, const Keep& keep) {
         const double x = towards.x, y = towards.y, z = towards.z, ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
@@ -222,7 +221,7 @@ private:
     int size_[3];
 };
 
-/// Unit vectors about a direction, a third of a turn from each other: so the edges of what hides it are soft.
+/// Ways about a direction, a third of a turn from each other: so the edges of what hides it are soft. Not unit.
 std::array<Vec3d, shading::kGridWays> ways_about(Vec3d towards, int direction) {
     const Vec3d side = std::abs(towards.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
     const Vec3d u = cross(side, towards) * (1.0 / length(cross(side, towards))), v = cross(towards, u);
@@ -241,20 +240,13 @@ double rounded_up(double x) {
     return std::ldexp(std::ceil(part * 8.0) / 8.0, exponent);
 }
 
-}  // namespace
-
-void make_sky_grid(const PreparedData& scene, SkyGrid& grid) {
-    SceneRevision revision = scene.revision();
-    revision.lights = 0;
-    if (grid.made && grid.revision == revision) return;
-    grid = {};
-    grid.made = true;
-    grid.revision = revision;
+SkyGrid grid_of(const PreparedData& scene) {
+    SkyGrid grid;
     const Bounds& bounds = scene.framed_bounds();
-    if (bounds.empty) return;
+    if (bounds.empty) return grid;
     const Vec3d low = to_double(bounds.min), high = to_double(bounds.max), side = high - low, middle = (low + high) * 0.5;
     const double longest = std::max({side.x, side.y, side.z});
-    if (!(longest > 1e-6 * length(middle) && longest > 1e-18 && longest < 1e18)) return;
+    if (!(longest > 1e-6 * length(middle) && longest > 1e-18 && longest < 1e18)) return grid;
     // Sizes are steps, and voxels lie at multiples of their size: where parts of a scene move, most frames have one grid.
     const double voxel = rounded_up(longest / (kMostVoxels - 2 * kFreeVoxels - 1)), per_length = 1.0 / voxel;
     const double lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
@@ -271,13 +263,12 @@ void make_sky_grid(const PreparedData& scene, SkyGrid& grid) {
     int points[3];
     for (int axis = 0; axis < 3; ++axis) {
         points[axis] = (size[axis] + kStride - 1) / kStride;
-        grid.plan.size[axis] = points[axis];
-        grid.plan.origin[axis] = static_cast<float>(origin[axis] + 0.5 / per_length);
+        grid.place.size[axis] = points[axis];
+        grid.place.origin[axis] = static_cast<float>(origin[axis] + 0.5 / per_length);
     }
-    grid.plan.per_length = static_cast<float>(per_length / kStride);
+    grid.place.per_length = static_cast<float>(per_length / kStride);
     grid.masks.resize(std::size_t{2} * static_cast<std::size_t>(points[0]) * static_cast<std::size_t>(points[1]) *
                       static_cast<std::size_t>(points[2]));
-    grid.plan.masks = grid.masks.data();
     // A row's words: two bits of each direction, those of the second half from word 32 on.
     const int rows = points[1] * points[2];
     std::vector<std::array<Word, 64>> counts(static_cast<std::size_t>(rows));
@@ -306,6 +297,18 @@ void make_sky_grid(const PreparedData& scene, SkyGrid& grid) {
             *out++ = static_cast<std::int32_t>(static_cast<std::uint32_t>(words >> 32));
         }
     }
+    return grid;
+}
+
+}  // namespace
+
+void make_sky_grid(const PreparedData& scene, SkyGrid& grid) {
+    SceneRevision revision = scene.revision();
+    revision.lights = 0;
+    if (grid.revision == revision) return;
+    grid.revision.reset();  // until it is made, as the time may end before
+    grid = grid_of(scene);
+    grid.revision = revision;
 }
 
 }  // namespace halflit::raster

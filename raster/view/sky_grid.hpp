@@ -9,16 +9,16 @@
 #include "shading/plan/sky_grid_plan.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace halflit::raster {
 
 /// A grid, and the scene that it was made of.
 struct SkyGrid {
-    SceneRevision revision;  ///< without that of its lights
-    bool made = false;
-    std::vector<std::int32_t> masks;  ///< empty: nothing in the scene hides anything
-    shading::SkyGridPlan plan;        ///< refers to the masks
+    std::optional<SceneRevision> revision;  ///< without that of its lights; none: nothing is made yet
+    std::vector<std::int32_t> masks;        ///< empty: nothing in the scene hides anything
+    shading::SkyGridPlan place;             ///< size, origin and scale
 };
 
 /// Makes the grid unless it is this scene's already.

@@ -21,11 +21,24 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace halflit {
 namespace {
+
+/// True if views look at the instance, and it is not transparent as a whole.
+bool is_looked_at(const Scene& scene, const Instance& instance) {
+    const Material* const material = raster::material_of(scene, instance);
+    const bool is_clear = material != nullptr && material->alpha_mode == AlphaMode::blend && material->base_color.w == 0.0f;
+    return raster::counts_for_views(scene, instance) && !is_clear;
+}
+
+bool shows_both_sides(const Scene& scene, const Instance& instance) {
+    const Material* const material = raster::material_of(scene, instance);
+    return material != nullptr && material->double_sided;
+}
 
 class SurfaceFinder {
 public:
@@ -92,10 +105,8 @@ void each_triangle(const Scene& scene, const raster::FramedPart& part, const Fn&
     for (const int i : part.instances) {
         const Instance& instance = scene.instances[static_cast<std::size_t>(i)];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (mesh.topology != Topology::triangles || !raster::counts_for_views(scene, instance)) continue;
-        const Material* const material = raster::material_of(scene, instance);
-        if (material != nullptr && material->alpha_mode == AlphaMode::blend && material->base_color.w == 0.0f) continue;
-        const bool both_sides = material != nullptr && material->double_sided, mirrored = determinant3(instance.world_from_object) < 0.0;
+        if (mesh.topology != Topology::triangles || !is_looked_at(scene, instance)) continue;
+        const bool both_sides = shows_both_sides(scene, instance), mirrored = determinant3(instance.world_from_object) < 0.0;
         for (std::size_t k = 0; k + 3 <= mesh.indices.size(); k += 3) {
             check();
             std::array<Vec3d, 3> at;
@@ -272,11 +283,8 @@ bool shows_surface(const Scene& scene, const Camera& camera, float aspect) {
     SurfaceFinder finder(camera, camera.made_for_aspect() > 0.0f ? camera.made_for_aspect() : aspect);
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
-        if (!raster::counts_for_views(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const Material* const material = raster::material_of(scene, instance);
-        if (material != nullptr && material->alpha_mode == AlphaMode::blend && material->base_color.w == 0.0f) continue;
-        if (finder.sees(mesh, instance.world_from_object, material != nullptr && material->double_sided)) return true;
+        if (is_looked_at(scene, instance) && finder.sees(mesh, instance.world_from_object, shows_both_sides(scene, instance))) return true;
     }
     return false;
 }
@@ -286,9 +294,9 @@ ViewSettings front_view(const Scene& scene, ViewSettings view) {
     return view;
 }
 
-ViewSettings choose_view(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
+FramedView choose_view(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
     const FpEnvironment environment_of_host;
-    if (!is_usual(view)) return view;
+    if (!is_usual(view)) return {view, frame_scene(scene, bounds, aspect, view)};
     constexpr float kBehind = 180.0f, kBelow = -40.0f;
     const ViewSettings most = telling_view(scene, front_view(scene, view));
     const auto turned = [&](float azimuth_deg, float elevation_deg) {
@@ -297,9 +305,13 @@ ViewSettings choose_view(const Scene& scene, const Bounds& bounds, float aspect,
         other.elevation_deg = elevation_deg;
         return other;
     };
-    for (const ViewSettings& side : {most, turned(kBehind, most.elevation_deg), turned(0, kBelow), turned(kBehind, kBelow)})
-        if (shows_surface(scene, frame_scene(scene, bounds, aspect, side), aspect)) return side;
-    return most;
+    std::optional<Camera> usual;
+    for (const ViewSettings& side : {most, turned(kBehind, most.elevation_deg), turned(0, kBelow), turned(kBehind, kBelow)}) {
+        const Camera camera = frame_scene(scene, bounds, aspect, side);
+        if (shows_surface(scene, camera, aspect)) return {side, camera};
+        if (!usual) usual = camera;
+    }
+    return {most, *usual};
 }
 
 }  // namespace halflit

@@ -308,11 +308,17 @@ bool may_split(const ShadingPlan& plan, const MaterialPlan& material) {
     return plan.shadow_mode == ShadowMode::soft_split && material.shadow_fade_scale > 0.0f && (material.stages & kStageLights) != 0;
 }
 
+namespace {
+
+/// Roundings of a share of two sums over the directions of shadow maps.
+double sky_sum_error(const ShadingPlan& plan) { return 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0); }
+
+}  // namespace
+
 double sky_share_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, double normal_error, double most) {
     if (plan.sky_grid.masks == nullptr) {
-        const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
         const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
-        return costs.absolute((sums + slope * normal_error) * most);
+        return costs.absolute((sky_sum_error(plan) + slope * normal_error) * most);
     }
     // 45 roundings of a sum without signs; ten of T(n), whose terms are at most 13 times as large; and those of n.d - a, in the sum of L_d,
     // which is at most 13 T(n). The share is never below kGridBounce, so the error is one of the light.
@@ -355,9 +361,8 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
             // Of mirrored light weights change no faster than twice the inverse width of the narrowest focus, by a factor of the lights in
             // reach.
             codes += sky_share_codes(costs, plan, material, s.normal_error, s.albedo * diffuse.most);
-            const double sums = 2.4e-7 * (static_cast<double>(plan.sky.size()) + 8.0);
             const double focused = 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error;
-            if (plan.sky_grid.masks == nullptr) codes += costs.absolute(share * (sums + focused) * mirrored.most);
+            if (plan.sky_grid.masks == nullptr) codes += costs.absolute(share * (sky_sum_error(plan) + focused) * mirrored.most);
         }
         diffuse_light += diffuse.most;
         shiny += mirrored.most;

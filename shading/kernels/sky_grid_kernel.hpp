@@ -81,7 +81,7 @@ HALFLIT_INLINE F hidden_share(const GridPoint& at, int direction) {
     return sel(at.weight > F(kLeastGridWeight), share, F(0.0f));
 }
 
-/// Share of the light of the surroundings that reaches a surface, in [sky_bounce, 1]. `normal`: that light is received by.
+/// Share of the light of the surroundings that reaches a surface, in [kGridBounce, 1]. `normal`: that light is received by.
 HALFLIT_INLINE F seen_in_grid(const shading::ShadingPlan& frame, V3 position, V3 surface_normal, V3 normal) {
     const shading::SkyGridPlan& grid = frame.sky_grid;
     const GridPoint at = grid_point(grid, position, surface_normal);
@@ -109,7 +109,7 @@ HALFLIT_INLINE F seen_in_grid(const shading::ShadingPlan& frame, V3 position, V3
     const F mixed = (F(t[7]) * normal.x * normal.y + F(t[8]) * normal.x * normal.z) + F(t[9]) * normal.y * normal.z;
     const F total = vmax(linear + (squares + mixed), F(grid.least_total));
     const F share = vmin(vdiv(hidden, vmax(at.weight, F(kLeastGridWeight)) * total), F(1.0f));
-    return F(1.0f) - sel(at.weight > F(kLeastGridWeight), share, none) * F(1.0f - frame.sky_bounce);
+    return F(1.0f) - sel(at.weight > F(kLeastGridWeight), share, none) * F(1.0f - shading::kGridBounce);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

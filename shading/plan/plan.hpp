@@ -26,7 +26,6 @@ struct ShadingPlan {
     std::vector<ShadowMapPlan> shadow_maps;
     std::vector<LightPlan> sky;                 ///< what sky shadows take the surroundings for (sky_lights.hpp); empty: there are none
     float sky_focus = 0;                        ///< narrowest_sky_focus() of their number
-    float sky_bounce = 0;                       ///< share of what they lose that other surfaces return
     SkyGridPlan sky_grid;                       ///< hides them, in place of maps
     std::vector<EnvironmentPlan> environments;  ///< one for each lobe that the environment is convolved with
     ReflectionPlan reflections;

@@ -293,7 +293,7 @@ TEST_CASE("sky shadows: the lights of all directions together are the sky's ligh
         double sum = 0;
         Vec3d mean{};
         shading::SkyCells cells;
-        for (const Light& light : shading::sky_lights(n, sky.get(), {}, cells)) {
+        for (const Light& light : shading::sky_lights(n, 96, sky.get(), {}, cells)) {
             sum += double{light.color_linear.y};
             mean = mean + to_double(light.direction_ws) * (1.0 / n);
         }

@@ -52,26 +52,26 @@ TEST_CASE("visible side: a card is seen from the side that is drawn, wherever th
         CHECK(seen(with(mesh)) > 100);
     const Scene front = with(card({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}));
     const Scene back = with(card({{-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}}));
-    const float near_front = choose_view(front, scene_bounds(front), 1.0f, usual).azimuth_deg;
+    const float near_front = choose_view(front, scene_bounds(front), 1.0f, usual).view.azimuth_deg;
     CHECK(near_front < usual.azimuth_deg);  // upright and thin
     CHECK(near_front > 0);
-    CHECK(choose_view(back, scene_bounds(back), 1.0f, usual).azimuth_deg > 90);
+    CHECK(choose_view(back, scene_bounds(back), 1.0f, usual).view.azimuth_deg > 90);
     Scene both = back;
     Material material;
     material.double_sided = true;
     both.materials.push_back(material);
     both.meshes[0].material = 0;
-    CHECK(choose_view(both, scene_bounds(both), 1.0f, usual).azimuth_deg == near_front);
+    CHECK(choose_view(both, scene_bounds(both), 1.0f, usual).view.azimuth_deg == near_front);
     Scene mirrored = back;
     mirrored.instances[0].world_from_object.c[2].z = -1;
-    CHECK(choose_view(mirrored, scene_bounds(mirrored), 1.0f, usual).azimuth_deg == near_front);
+    CHECK(choose_view(mirrored, scene_bounds(mirrored), 1.0f, usual).view.azimuth_deg == near_front);
 }
 
 TEST_CASE("view: what is flat is seen from farther above, a cube and a tower as usual", "[raster][view]") {
     const ViewSettings usual;
     const auto chosen = [&](Vec3f half, const ViewSettings& view) {
         const Scene scene = with(make_box(half));
-        return choose_view(scene, scene_bounds(scene), 1.0f, view);
+        return choose_view(scene, scene_bounds(scene), 1.0f, view).view;
     };
     CHECK(chosen({1, 1, 1}, usual) == usual);
     CHECK(chosen({1, 5, 1}, usual) == usual);
@@ -85,7 +85,7 @@ TEST_CASE("view: what is flat is seen from farther above, a cube and a tower as 
     Scene scene = with(make_box({200, 4, 200}));
     scene.faces_back = true;
     scene.instances[0].world_from_object = translation({1e5f, -3e4f, 7e5f});
-    const ViewSettings behind = choose_view(scene, scene_bounds(scene), 1.0f, usual);
+    const ViewSettings behind = choose_view(scene, scene_bounds(scene), 1.0f, usual).view;
     CHECK(behind.azimuth_deg == usual.azimuth_deg + 180);
     CHECK(behind.elevation_deg > 35);
 }

@@ -52,8 +52,7 @@ Result<double> read_value(const SettingValues& values, const std::string& text) 
                                 ? parse_int(text, 0, 1 << 30).map([](std::int64_t whole) { return static_cast<double>(whole); })
                                 : parse_float(text, -kMost, kMost).map([](float x) { return static_cast<double>(x); });
         value = number ? *number * values.unit : -1.0;
-        const bool word_only = (value == 0.0 && !values.zero.empty()) || (value == 1.0 && !values.one.empty());
-        if (!number || word_only || !values.contains(value))
+        if (!number || !values.word(value).empty() || !values.contains(value))
             return fail(ErrorCode::usage, fmt::format("expected {}, found '{}'", values.expected(), text));
     }
     return value;
@@ -62,8 +61,7 @@ Result<double> read_value(const SettingValues& values, const std::string& text) 
 std::string setting_text(const Setting& setting, const Settings& settings) {
     const double value = setting.get(settings);
     if (setting.values.kind == SettingValues::Kind::named) return std::string(setting.values.names[static_cast<std::size_t>(value)]);
-    if (value == 0.0 && !setting.values.zero.empty()) return std::string(setting.values.zero);
-    if (value == 1.0 && !setting.values.one.empty()) return std::string(setting.values.one);
+    if (const std::string_view word = setting.values.word(value); !word.empty()) return std::string(word);
     return fmt::format("{}", static_cast<float>(value / setting.values.unit));
 }
 

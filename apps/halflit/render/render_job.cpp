@@ -256,7 +256,7 @@ Result<PictureRequest> request_of(RenderJob& job, const RenderOptions& options, 
         const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
         if (options.film.moves() && !bounds.empty) {
             const ViewSettings view =
-                options.own_view() ? front_view(job.scene(), options.view) : choose_view(job.scene(), bounds, aspect, options.view);
+                options.own_view() ? front_view(job.scene(), options.view) : choose_view(job.scene(), bounds, aspect, options.view).view;
             tell_view(job, options, aspect, view);
             request.camera = film_camera(job.scene(), bounds, options.film, aspect, view);
         }

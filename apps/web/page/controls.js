@@ -68,7 +68,7 @@ function show_state(state) {
   say_value(form.rotate, `${state.rotate}°`);
   say_value(form.sun_size, `${state.sun_size}°`);
   say_value(form.sh_order, state.sh_order || "auto");
-  say_value(form.exposure, `auto${state.exposure > 0 ? "+" : ""}${state.exposure || ""}`);
+  say_value(form.exposure, exposure_text(state.exposure));
   say_value(form.time, `${digits(state.time, 3)} s`);
 }
 

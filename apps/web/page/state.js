@@ -20,6 +20,9 @@ function lobe_of(state) {
   return { wrap, power: state.power === "" ? power_of(model, wrap) : state.power, normalize: model.normalize || state.normalize };
 }
 
+// Stops above the exposure that is chosen, as --exposure takes them.
+const exposure_text = (stops) => (stops === 0 ? "auto" : `auto${stops > 0 ? "+" : ""}${digits(stops)}`);
+
 // Six digits: the picture is drawn from the same text that the command line shows.
 const digits = (x, count = 6) => (Math.abs(x) < 1e-12 ? "0" : String(Number(Number(x).toPrecision(count))));
 
@@ -91,7 +94,7 @@ function flags_of(state) {
   if (state.rotate != 0) add("--env-rotate", digits(state.rotate));
   if (state.show_env) add("--background", "environment");
   if (state.sh_order > 0) add("--sh-order", state.sh_order);
-  if (state.exposure !== 0) add("--exposure", `auto${state.exposure > 0 ? "+" : ""}${digits(state.exposure)}`);
+  if (state.exposure !== 0) add("--exposure", exposure_text(state.exposure));
   if (state.tonemap !== kDefaults.tonemap) add("--tonemap", state.tonemap);
   if (state.budget > 0) add("--max-error", digits(state.budget));
   if (state.ground) flags.push("--ground");

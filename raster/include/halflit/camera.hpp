@@ -112,11 +112,17 @@ inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},  
 /// False if the camera shows nothing of the scene: all triangles, lines and points lie outside of its view, or turn a side to it that is
 /// not drawn. Ends at the first one that it shows, so it is quick in all but odd scenes.
 [[nodiscard]] HALFLIT_API bool shows_surface(const Scene& scene, const Camera& camera, float aspect);
+/// A view of a whole scene, and the camera that frame_scene() makes of it.
+struct FramedView {
+    ViewSettings view;  ///< its direction, and how it is fitted
+    Camera camera;      ///< that shows the scene whole
+};
+
 /// The view of a scene without a camera: `view`, or with the usual angles, the one of a few that shows most, counted from the side that the
 /// scene faces (Scene::faces_back): flat things from farther above, thin upright ones from the front. It depends on the geometry alone, and
 /// the usual one is kept unless another is clearly better. Where frame_scene() would show nothing by it, the same from behind, from below,
 /// or from behind and below, whichever is the first that shows something. bounds: scene_bounds(scene).
-[[nodiscard]] HALFLIT_API ViewSettings choose_view(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
+[[nodiscard]] HALFLIT_API FramedView choose_view(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
 
 /// Settings::point_size, pixels, at which the points of a scene close the surface that they lie on, as this camera sees it: by their mean
 /// distance in the picture; 2 at least, a fortieth of the picture's shorter side at most.
