@@ -1,9 +1,9 @@
 #include "halflit/auto_setup.hpp"
 
 #include "raster/view/projection.hpp"
+#include "raster/view/suited_background.hpp"
 #include "sh/fp_environment.hpp"
 #include "shading/environment.hpp"
-#include "shading/model/srgb.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -150,13 +150,13 @@ Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std:
 
 Settings usual_settings() {
     const FpEnvironment environment_of_host;
-    const auto linear = [](int code) { return static_cast<float>(shading::linear_from_srgb(code / 255.0)); };
     Settings settings;
     settings.samples = 4;
     settings.tone_curve = ToneCurve::neutral;
     settings.shading.anisotropy = 4;
     settings.sky_shadows = kSkyShadowsAuto;
-    settings.background_linear = {linear(0x3a), linear(0x3f), linear(0x47), 1.0f};
+    settings.contact_shadow = 0.85f;
+    settings.background_linear = raster::suited_background({});
     return settings;
 }
 
@@ -180,6 +180,7 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
         chosen != nullptr ? FramedView{front_view(scene, options.view), *chosen} : choose_view(scene, bounds, aspect, options.view);
     setup.view = seen.view, setup.camera = seen.camera;
     setup.settings = usual_settings();
+    setup.settings.background_linear = raster::suited_background(scene);
     setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
     const float exposure = complete(setup.light, bounds, setup.camera, options);

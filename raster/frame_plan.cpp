@@ -234,7 +234,7 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
     if (!has_sky_shadows(light, settings)) return SkyPlan{};
     constexpr int kRows = 96, kRowsOfGrid = 16;  // of the cells that are given to the directions
     const bool in_grid = settings.sky_shadows == kSkyShadowsAuto;
-    if (in_grid) make_sky_grid(scene, memory.sky_grid);
+    if (in_grid) fill_voxels(scene, memory.voxels), make_sky_grid(memory.voxels, memory.sky_grid);
     if (in_grid && memory.sky_grid.masks.empty()) return SkyPlan{};
     SkyPlan plan;
     plan.directions = in_grid ? shading::kGridDirections : settings.sky_shadows;
@@ -254,6 +254,22 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
     const auto before = static_cast<std::int32_t>(append(shadows, std::move(*views)));
     for (std::size_t i = 0; i < maps.size(); ++i) plan.lights[i].shadow_map = maps[i] < 0 ? -1 : maps[i] + before;
     return plan;
+}
+
+bool has_shadow_catcher(const PreparedData& prepared) {
+    const std::vector<Material>& materials = prepared.scene().materials;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (prepared.drawn_materials()[i] && materials[i].shadow_catcher) return true;
+    return false;
+}
+
+ContactShadow plan_contact_shadow(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
+                                  FramePlanMemory& memory) {
+    const Bounds& bounds = scene.framed_bounds();
+    if (settings.contact_shadow == 0.0f || settings.shadows == ShadowMode::off || bounds.empty || has_shadow_catcher(scene)) return {};
+    fill_voxels(scene, memory.voxels);
+    make_contact_map(memory.voxels, double{bounds.min.y}, memory.contact_map);
+    return {memory.contact_map.map, camera, width, height, settings.contact_shadow};
 }
 
 Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light, const Camera& camera, const Settings& settings, int width,
@@ -330,6 +346,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     plan.background_linear = settings.background_linear;
     float& alpha = plan.background_linear.w;
     alpha = alpha > 0.0f ? std::min(alpha, 1.0f) : 0.0f;  // an infinite one would make light that is not a number
+    plan.contact_shadow = plan_contact_shadow(prepared, camera, settings, width, height, memory);
     plan.exposure = settings.exposure;
     plan.tone_curve = settings.tone_curve;
     plan.depth = depth_map(camera, static_cast<float>(width) / static_cast<float>(height));

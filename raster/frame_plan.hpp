@@ -7,6 +7,7 @@
 #include "raster/detail/raw_buffer.hpp"
 #include "raster/scene/prepared_data.hpp"
 #include "raster/view/background.hpp"
+#include "raster/view/contact_shadow.hpp"
 #include "raster/view/light_culling.hpp"
 #include "raster/view/projection.hpp"
 #include "raster/view/shadow_views.hpp"
@@ -35,6 +36,7 @@ struct FramePlan {
     LightCuller light_culler;  ///< selects the lights of a block of fragments
     Background background;     ///< replaces background_linear if it has an environment
     Vec4f background_linear{0, 0, 0, 0};
+    ContactShadow contact_shadow;  ///< over the background
     float exposure = 1.0f;
     ToneCurve tone_curve = ToneCurve::none;
     bool transmits = false;      ///< light passes through some drawn material
@@ -52,7 +54,9 @@ struct FramePlanMemory {
     std::map<std::array<double, 3>, double> light_distances;
     /// Texels of all shadow maps, one map after the other. Without a value the plan is only read: its maps have no texels.
     std::optional<RawBuffer<float>> shadow_texels;
+    FilledVoxels voxels;
     SkyGrid sky_grid;
+    KeptContactMap contact_map;
     shading::SkyCells sky_cells;
     shading::ForEachRow for_each_row;  ///< of the call; empty: none
     StopSignal* stop = nullptr;        ///< of the call; null: none, and shadow_texels has no value

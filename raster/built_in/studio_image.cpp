@@ -70,11 +70,11 @@ Vec3d room(Vec3d d) {
 
 EnvironmentImage studio_image() {
     const FpEnvironment environment_of_host;
-    const std::array<SoftBox, 5> boxes{SoftBox{-50, 40, 54, 44, {2.2, 2.13, 2.0}},      // the main one, to the left above the viewer
-                                       SoftBox{75, 22, 44, 80, {0.84, 0.88, 0.97}},     // a tall one fills the right side
-                                       SoftBox{150, 38, 76, 34, {1.25, 1.29, 1.38}},    // behind the model: edges
-                                       SoftBox{-125, 15, 30, 90, {1.04, 1.01, 0.98}},   // a strip behind it to the left
-                                       SoftBox{0, 85, 70, 70, {0.575, 0.575, 0.575}}};  // overhead
+    const std::array<SoftBox, 5> boxes{SoftBox{-50, 40, 54, 44, {2.2, 2.13, 2.0}},     // the main one, to the left above the viewer
+                                       SoftBox{75, 22, 44, 80, {0.35, 0.37, 0.41}},    // a tall one fills the right side
+                                       SoftBox{150, 38, 76, 34, {1.25, 1.29, 1.38}},   // behind the model: edges
+                                       SoftBox{-125, 15, 30, 90, {1.04, 1.01, 0.98}},  // a strip behind it to the left
+                                       SoftBox{0, 85, 70, 70, {0.66, 0.66, 0.66}}};    // overhead
     EnvironmentImage image{2 * kStudioRows, kStudioRows, {}, true};
     image.rgb.reserve(static_cast<std::size_t>(6) * kStudioRows * kStudioRows);
     for (int y = 0; y < kStudioRows; ++y)

@@ -99,9 +99,17 @@ private:
     [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;  ///< LayerScratch::keep, of the scratch's block
     void blend_fragment(std::size_t fragment, int at, int sample);           ///< lays a fragment of the layers over a sample
     // resolve.cpp
-    [[nodiscard]] Vec4f background_at(int at) const;  ///< of a pixel; at: in the tile's buffers
-    [[nodiscard]] Vec4f background_sample() const;    ///< of the background colour: times alpha, and alpha
+    /// Of every sample of a pixel: light times alpha, and alpha, and the share of the background colour in it.
+    struct BackgroundSample {
+        Vec4f color;
+        float share;
+    };
+    [[nodiscard]] BackgroundSample background_at(int at) const;  ///< at: of the pixel in the tile's buffers
+    void set_background(int at, int place);                      ///< sets a pixel's samples; place: of these, in the buffers
+    [[nodiscard]] Vec4f background_sample() const;               ///< of the background colour: times alpha, and alpha
     [[nodiscard]] bool has_background() const { return plan_.background && !pass_.view.behind; }  ///< an environment is seen
+    /// The background is not one colour in all of the tile.
+    [[nodiscard]] bool background_varies() const { return has_background() || has_contact_shadow_; }
     void clear();            ///< fills a tile that has triangles with the background
     void fill_background();  ///< writes a tile that has no triangles
     struct Pixel {
@@ -109,7 +117,8 @@ private:
         std::uint32_t code = 0;  ///< as the caller's memory has it
     };
     [[nodiscard]] Pixel background_pixel() const;                               ///< of the background colour
-    void fill_samples();                                                        ///< sets every sample to the environment behind its pixel
+    void write_background(const int* at, int count);                            ///< of pixels in the tile's buffers, at most kTileStride
+    void fill_samples();                                                        ///< sets every sample to the background of its pixel
     void write(const FragmentList& list, const shading::FragmentBlock& block);  ///< to the caller's memory or to samples
     void write_samples(const FragmentList& list, const shading::FragmentBlock& block);
     void write_whole(const FragmentList& list, const shading::FragmentBlock& block);  ///< the pixels all of whose samples a fragment has
@@ -153,13 +162,14 @@ private:
     TileScratch& scratch_;
     TileRect written_;  ///< the part of the rect that is the caller's; the rest completes cells
     TileCounts counts_;
-    bool toned_;              ///< codes are written, through a tone curve
-    bool transmits_ = false;  ///< light passes through some layer of the tile
-    bool has_shown_ = false;  ///< some fragment of the tile has a colour of the display, and there is a tone curve
-    bool has_whole_ = false;  ///< pixels that one triangle covers are written at once: there are several samples, but no layers
-    bool shades_ = true;      ///< colours are asked for
-    bool joins_ = false;      ///< fragments of one smooth surface are joined
-    bool direct_ = true;      ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
+    bool toned_;                       ///< codes are written, through a tone curve
+    bool has_contact_shadow_ = false;  ///< on some pixel of the tile
+    bool transmits_ = false;           ///< light passes through some layer of the tile
+    bool has_shown_ = false;           ///< some fragment of the tile has a colour of the display, and there is a tone curve
+    bool has_whole_ = false;           ///< pixels that one triangle covers are written at once: there are several samples, but no layers
+    bool shades_ = true;               ///< colours are asked for
+    bool joins_ = false;               ///< fragments of one smooth surface are joined
+    bool direct_ = true;               ///< one opaque sample per pixel: shaded colours go straight to the caller's memory
 };
 
 }  // namespace halflit::raster

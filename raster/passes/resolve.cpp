@@ -46,7 +46,7 @@ void PictureTile::clear() {
     const Vec4f back = background_sample();
     for (int i = 0; i < samples_ * kTilePixels; ++i) std::memcpy(color + 4 * i, &back, sizeof back);
     fill_backing(1.0f);
-    if (has_background()) fill_samples();
+    if (background_varies()) fill_samples();
 }
 
 void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& block) {
@@ -102,17 +102,28 @@ int PictureTile::part_of(int at) {
     const int place = parts.count++;
     parts.place[at] = static_cast<std::uint16_t>(place);
     parts.pixel[place] = static_cast<std::uint16_t>(at);
-    const Vec4f back = background_at(at);
-    for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * place, &back, sizeof back);
-    if (toned_)
-        for (int s = 0; s < samples_; ++s) scratch_.backing.data()[s * kTilePixels + place] = has_background() ? 0.0f : 1.0f;
+    set_background(at, place);
     return place;
 }
 
-/// Of every sample of a pixel. An environment is light, as a surface's is.
-Vec4f PictureTile::background_at(int at) const {
-    if (!has_background()) return background_sample();
-    return number_or_zero(plan_.background.at(rect_.x + at % kTileStride, rect_.y + at / kTileStride));
+/// An environment is light, as a surface's is. A shadow is a black surface before either.
+PictureTile::BackgroundSample PictureTile::background_at(int at) const {
+    const int x = rect_.x + at % kTileStride, y = rect_.y + at / kTileStride;
+    const Vec4f back = has_background() ? number_or_zero(plan_.background.at(x, y)) : background_sample();
+    const float share = has_background() ? 0.0f : 1.0f;
+    if (!has_contact_shadow_) return {back, share};
+    const float shadow = plan_.contact_shadow.at(x, y), kept = 1.0f - shadow;
+    if (shadow == 0.0f) return {back, share};
+    return {number_or_zero(Vec4f{back.x * kept, back.y * kept, back.z * kept, back.w * kept + shadow}), share * kept};
+}
+
+void PictureTile::set_background(int at, int place) {
+    const BackgroundSample back = background_at(at);
+    for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * place, &back.color, sizeof back.color);
+    if (!toned_) return;
+    for (int s = 0; s < samples_; ++s) scratch_.backing.data()[s * kTilePixels + place] = back.share;
+    if (!transmits_) return;
+    for (int s = 0; s < 3 * samples_; ++s) scratch_.tint.data()[s * kTilePixels + place] = back.share;
 }
 
 /// All samples of a pixel have one value, whose mean is taken by the operations that the mean of samples takes.
@@ -187,25 +198,29 @@ void PictureTile::write_samples(const FragmentList& list, const shading::Fragmen
 }
 
 void PictureTile::fill_samples() {
-    fill_backing(0.0f);  // an environment is light, as a surface's is
     for (int y = 0; y < rect_.height; ++y)
-        for (int x = 0; x < rect_.width; ++x) {
-            const int at = y * kTileStride + x;
-            const Vec4f b = background_at(at);
-            for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * at, &b, sizeof b);
-        }
+        for (int x = 0; x < rect_.width; ++x) set_background(y * kTileStride + x, y * kTileStride + x);
 }
 
 void PictureTile::fill_background() {
     if (has_background()) {
         // Goes through samples, so that an empty tile rounds as an empty pixel beside a triangle does.
         scratch_.color.reserve(static_cast<std::size_t>(samples_) * 4 * kTilePixels);
+        fill_backing(0.0f);
         fill_samples();
         resolve();
         return;
     }
-    const Pixel back = background_pixel();
     const Output& output = pass_.output;
+    if (has_contact_shadow_) {
+        int at[kTileStride];
+        for (int y = written_.y; y < written_.y + written_.height; ++y) {
+            for (int x = 0; x < written_.width; ++x) at[x] = (y - rect_.y) * kTileStride + (written_.x - rect_.x) + x;
+            write_background(at, written_.width);
+        }
+        return;
+    }
+    const Pixel back = background_pixel();
     if (output.codes) {
         std::uint32_t code[kTileStride];
         std::fill_n(code, written_.width, back.code);
@@ -241,6 +256,30 @@ PictureTile::Pixel PictureTile::background_pixel() const {
     return pixel;
 }
 
+/// The same as through samples: without surfaces all are alike, and the tone curve keeps what is black.
+void PictureTile::write_background(const int* at, int count) {
+    const Output& output = pass_.output;
+    ResolvedPixels row;
+    for (int i = 0; i < count; ++i) {
+        const Vec4f back = background_at(at[i]).color;
+        const float sample[4] = {back.x, back.y, back.z, back.w};
+        float sum[4] = {0, 0, 0, 0};
+        for (int s = 0; s < samples_; ++s)
+            for (int k = 0; k < 4; ++k) sum[k] += sample[k];
+        const Vec4f pixel = resolved(sum, 1.0f / static_cast<float>(samples_));
+        row.linear[0][i] = pixel.x, row.linear[1][i] = pixel.y, row.linear[2][i] = pixel.z, row.linear[3][i] = pixel.w;
+    }
+    if (output.codes) {
+        pass_.view.shade.encode_srgb8(row.linear[0], row.linear[1], row.linear[2], row.linear[3], 1.0f, row.code, count);
+        output.finish_codes(row.code, count);
+    }
+    for (int i = 0; i < count; ++i) {
+        const int x = rect_.x + at[i] % kTileStride, y = rect_.y + at[i] / kTileStride;
+        if (output.codes) std::memcpy(output.codes.at(x, y), &row.code[i], sizeof row.code[i]);
+        if (output.linear) output.write_linear(x, y, row.linear[0][i], row.linear[1][i], row.linear[2][i], row.linear[3][i]);
+    }
+}
+
 void PictureTile::resolve() {
     if (has_whole_) {
         resolve_parts();
@@ -265,15 +304,21 @@ void PictureTile::resolve_parts() {
     for (int y = written_.y; y < written_.y + written_.height; ++y) {
         const std::size_t row = static_cast<std::size_t>(y - rect_.y);
         const std::uint64_t wanted = (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x);
+        int at[kTileStride], count = 0;
         for (std::uint64_t left = wanted & ~(parts.whole[row] | parts.part[row]); left != 0; left &= left - 1) {
             const int x = std::countr_zero(left);
             if (has_background()) {
                 (void)part_of(static_cast<int>(row) * kTileStride + x);
                 continue;
             }
+            if (has_contact_shadow_) {
+                at[count++] = static_cast<int>(row) * kTileStride + x;
+                continue;
+            }
             if (output.codes) std::memcpy(output.codes.at(rect_.x + x, y), &back.code, sizeof back.code);
             if (output.linear) output.write_linear(rect_.x + x, y, back.linear.x, back.linear.y, back.linear.z, back.linear.w);
         }
+        write_background(at, count);
     }
     ResolvedPixels some;
     for (int first = 0; first < parts.count; first += kMaxTileSize) {

@@ -1,8 +1,5 @@
 #include "raster/view/sky_grid.hpp"
 
-#include "raster/scene/instance_material.hpp"
-#include "sh/mat4.hpp"
-#include "sh/time_limit.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/sky_lights.hpp"
@@ -14,13 +11,9 @@
 namespace halflit::raster {
 namespace {
 
-constexpr int kMostVoxels = 64;   ///< on a side: bits of a word
-constexpr int kFreeVoxels = 4;    ///< at each side of the scene: where its outermost surfaces read
-constexpr int kStride = 2;        ///< voxels from one point of the lattice to the next
-constexpr double kSpacing = 0.6;  ///< between points that mark a triangle's voxels, voxels
-constexpr double kPhase = 0.38;   ///< of the voxels' borders, so that round coordinates, which are rounded in many ways, are none
+using Word = BitGrid::Word;
 
-using Word = std::uint64_t;
+constexpr int kStride = 2;  ///< voxels from one point of the lattice to the next
 
 /// The bit of matrix[r] at c goes to that of matrix[c] at r.
 void transpose(std::array<Word, 64>& matrix) {
@@ -31,117 +24,6 @@ void transpose(std::array<Word, 64>& matrix) {
             matrix[r] ^= swapped << step;
             matrix[r | step] ^= swapped;
         }
-}
-
-/// Bits in rows along one axis, which lie in layers.
-struct BitGrid {
-    int layers = 0, rows = 0;
-    std::vector<Word> words;
-
-    BitGrid(int layer_count, int row_count)
-        : layers(layer_count), rows(row_count), words(static_cast<std::size_t>(layer_count) * static_cast<std::size_t>(row_count)) {}
-    [[nodiscard]] Word* layer(int at) { return &words[index(at, 0)]; }
-    [[nodiscard]] const Word* layer(int at) const { return &words[index(at, 0)]; }
-    [[nodiscard]] Word& row(int layer, int at) { return words[index(layer, at)]; }
-    [[nodiscard]] Word row(int layer, int at) const { return words[index(layer, at)]; }
-
-private:
-    [[nodiscard]] std::size_t index(int layer, int at) const { return static_cast<std::size_t>(layer * rows + at); }
-};
-
-/// Bits of the voxels that something fills.
-class FilledVoxels {
-public:
-    FilledVoxels(const double (&origin)[3], double per_length, const int (&size)[3]) : per_length_(per_length), bits_(size[2], size[1]) {
-        for (int axis = 0; axis < 3; ++axis) origin_[axis] = origin[axis], size_[axis] = size[axis];
-    }
-    [[nodiscard]] const BitGrid& bits() const { return bits_; }
-
-    [[nodiscard]] Vec3d place(Vec3f p) const {
-        return {(double{p.x} - origin_[0]) * per_length_, (double{p.y} - origin_[1]) * per_length_,
-                (double{p.z} - origin_[2]) * per_length_};
-    }
-    void mark(Vec3d p) {
-        // Comparisons are false for what is not a number.
-        if (!(p.x >= 0.0 && p.x < size_[0] && p.y >= 0.0 && p.y < size_[1] && p.z >= 0.0 && p.z < size_[2])) return;
-        bits_.row(static_cast<int>(p.z), static_cast<int>(p.y)) |= Word{1} << static_cast<int>(p.x);
-    }
-    void mark(Vec3d a, Vec3d b, Vec3d c) {
-        const Vec3d ab = b - a, bc = c - b, ca = a - c;
-        const double longest = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
-        mark(a);
-        if (!(longest > kSpacing * kSpacing)) return;
-        mark(b), mark(c);
-        if (!(longest < 1e18)) return;
-        // Rows along the longest side, from it to the third corner.
-        Vec3d from = a, to = b, third = c;
-        if (longest == dot(bc, bc))
-            from = b, to = c, third = a;
-        else if (longest == dot(ca, ca))
-            from = c, to = a, third = b;
-        const Vec3d across = cross(to - from, third - from);
-        const double height = std::sqrt(dot(across, across) / longest);
-        const int rows = steps(height);
-        for (int r = 0; r <= rows; ++r) {
-            const double up = static_cast<double>(r) / rows;
-            const Vec3d begin = from + (third - from) * up, side = (to + (third - to) * up) - begin;
-            mark_line(begin, side);
-        }
-    }
-
-private:
-    [[nodiscard]] static int steps(double length) { return static_cast<int>(std::min(std::ceil(length / kSpacing), 1e6)) | 1; }
-    /// Only the part within the grid, as a triangle may reach far beyond it.
-    void mark_line(Vec3d begin, Vec3d side) {
-        double first = 0.0, last = 1.0;
-        const double at[3] = {begin.x, begin.y, begin.z}, along[3] = {side.x, side.y, side.z};
-        for (int axis = 0; axis < 3; ++axis) {
-            const double to_low = -at[axis], to_high = size_[axis] - at[axis];
-            if (along[axis] == 0.0) {
-                if (to_low > 0.0 || to_high < 0.0) return;
-                continue;
-            }
-            const double one = to_low / along[axis], other = to_high / along[axis];
-            first = std::max(first, std::min(one, other));
-            last = std::min(last, std::max(one, other));
-        }
-        if (!(first <= last)) return;
-        const int count = steps(length(side) * (last - first));
-        for (int k = 0; k <= count; ++k) mark(begin + side * (first + (last - first) * (static_cast<double>(k) / count)));
-    }
-
-    double origin_[3], per_length_;
-    int size_[3];
-    BitGrid bits_;
-};
-
-bool hides(const Scene& scene, const Instance& instance) {
-    if (!counts_for_views(scene, instance)) return false;
-    const Material* const material = material_of(scene, instance);
-    return material == nullptr || (material->alpha_mode == AlphaMode::opaque && !material->is_layer());
-}
-
-void fill(const PreparedData& prepared, FilledVoxels& filled) {
-    TimeCheck check;
-    constexpr std::size_t kMostKept = std::size_t{1} << 18;  // vertices; more would take much memory
-    const Scene& scene = prepared.scene();
-    std::vector<Vec3d> places;
-    for (const Instance& instance : scene.instances) {
-        if (!hides(scene, instance)) continue;
-        const Mesh& mesh = prepared.source_mesh(instance.mesh);
-        if (mesh.topology != Topology::triangles) continue;
-        const auto place = [&](std::size_t vertex) {
-            return filled.place(transform_point(instance.world_from_object, mesh.positions[vertex]));
-        };
-        const bool kept = mesh.positions.size() <= kMostKept && mesh.positions.size() < mesh.indices.size();
-        places.clear();
-        for (std::size_t v = 0; kept && v < mesh.positions.size(); ++v) places.push_back(place(v));
-        const auto corner = [&](std::size_t i) { return kept ? places[mesh.indices[i]] : place(mesh.indices[i]); };
-        for (std::size_t i = 0; i + 3 <= mesh.indices.size(); i += 3) {
-            check();
-            filled.mark(corner(i), corner(i + 1), corner(i + 2));
-        }
-    }
 }
 
 /// Finds the voxels that something hides one way, which goes on by one layer at a time; bit, row: how far it goes across a layer meanwhile.
@@ -233,46 +115,23 @@ std::array<Vec3d, shading::kGridWays> ways_about(Vec3d towards, int direction) {
     return ways;
 }
 
-/// The next one of 1, 1.25, 1.5 and 1.75 times the powers of 2.
-double rounded_up(double x) {
-    int exponent = 0;
-    const double part = std::frexp(x, &exponent);  // 0.5 to 1
-    return std::ldexp(std::ceil(part * 8.0) / 8.0, exponent);
-}
-
-SkyGrid grid_of(const PreparedData& scene) {
+SkyGrid grid_of(const FilledVoxels& voxels) {
     SkyGrid grid;
-    const Bounds& bounds = scene.framed_bounds();
-    if (bounds.empty) return grid;
-    const Vec3d low = to_double(bounds.min), high = to_double(bounds.max), side = high - low, middle = (low + high) * 0.5;
-    const double longest = std::max({side.x, side.y, side.z});
-    if (!(longest > 1e-6 * length(middle) && longest > 1e-18 && longest < 1e18)) return grid;
-    // Sizes are steps, and voxels lie at multiples of their size: where parts of a scene move, most frames have one grid.
-    const double voxel = rounded_up(longest / (kMostVoxels - 2 * kFreeVoxels - 1)), per_length = 1.0 / voxel;
-    const double lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
-    double origin[3];
-    int size[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        const double first = std::floor(lows[axis] / voxel - kPhase) - kFreeVoxels,
-                     last = std::floor(highs[axis] / voxel - kPhase) + kFreeVoxels;
-        origin[axis] = (first + kPhase) * voxel;
-        size[axis] = std::min(kMostVoxels, static_cast<int>(last - first) + 1);
-    }
-    FilledVoxels filled(origin, per_length, size);
-    fill(scene, filled);
+    if (voxels.bits.words.empty()) return grid;
+    const int(&size)[3] = voxels.size;
     int points[3];
     for (int axis = 0; axis < 3; ++axis) {
         points[axis] = (size[axis] + kStride - 1) / kStride;
         grid.place.size[axis] = points[axis];
-        grid.place.origin[axis] = static_cast<float>(origin[axis] + 0.5 / per_length);
+        grid.place.origin[axis] = static_cast<float>(voxels.origin[axis] + 0.5 / voxels.per_length);
     }
-    grid.place.per_length = static_cast<float>(per_length / kStride);
+    grid.place.per_length = static_cast<float>(voxels.per_length / kStride);
     grid.masks.resize(std::size_t{2} * static_cast<std::size_t>(points[0]) * static_cast<std::size_t>(points[1]) *
                       static_cast<std::size_t>(points[2]));
     // A row's words: two bits of each direction, those of the second half from word 32 on.
     const int rows = points[1] * points[2];
     std::vector<std::array<Word, 64>> counts(static_cast<std::size_t>(rows));
-    HiddenVoxels hidden(filled.bits(), size);
+    HiddenVoxels hidden(voxels.bits, size);
     int direction = 0;
     for (const Vec3d& towards : shading::sky_directions(shading::kGridDirections)) {
         const auto low_bit = static_cast<std::size_t>(32 * (direction / shading::kGridInWord) + 2 * (direction % shading::kGridInWord));
@@ -302,13 +161,11 @@ SkyGrid grid_of(const PreparedData& scene) {
 
 }  // namespace
 
-void make_sky_grid(const PreparedData& scene, SkyGrid& grid) {
-    SceneRevision revision = scene.revision();
-    revision.lights = 0;
-    if (grid.revision == revision) return;
+void make_sky_grid(const FilledVoxels& voxels, SkyGrid& grid) {
+    if (grid.revision == voxels.revision) return;
     grid.revision.reset();  // until it is made, as the time may end before
-    grid = grid_of(scene);
-    grid.revision = revision;
+    grid = grid_of(voxels);
+    grid.revision = voxels.revision;
 }
 
 }  // namespace halflit::raster

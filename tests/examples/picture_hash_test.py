@@ -49,7 +49,7 @@ class PictureHash(unittest.TestCase):
         self.assertEqual(picture_hash.xxh64(b""), "ef46db3751d8e999")
 
     def test_of_a_picture_it_is_that_of_the_report(self):
-        for background in ("#3a3f47", "transparent"):
+        for background in ("#2c3036", "transparent"):
             report = self.drawn("-o", str(self.path), "--background", background)
             self.assertEqual(picture_hash.of_file(self.path), report["pixel_hash"])
 

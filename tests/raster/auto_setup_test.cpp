@@ -71,7 +71,7 @@ TEST_CASE(
     CHECK(s.shading.anisotropy == 4);
     std::vector<std::uint8_t> pixels(4);
     REQUIRE(render(Scene{}, Camera{}, s, {.width = 1, .height = 1, .pixels = pixels.data()}));
-    CHECK(pixels == std::vector<std::uint8_t>{0x3a, 0x3f, 0x47, 0xff});
+    CHECK(pixels == std::vector<std::uint8_t>{0x2c, 0x30, 0x36, 0xff});
     CHECK(s.sky_shadows == kSkyShadowsAuto);
     s.samples = Settings{}.samples;
     s.sky_shadows = Settings{}.sky_shadows;

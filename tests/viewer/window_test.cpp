@@ -56,7 +56,7 @@ TEST_CASE("window: an orbit is drawn, measured and shown with the panel", "[view
     REQUIRE(window.height == 240);
     CHECK(colors(window, 0, 320) > 200);                                   // the shaded sphere
     CHECK(colors(window, 320, window.width) > 10);                         // the panel
-    CHECK(window.pixel(2, 2) == std::vector<int>{0x3a, 0x3f, 0x47, 255});  // the usual background
+    CHECK(window.pixel(2, 2) == std::vector<int>{0x2c, 0x30, 0x36, 255});  // the usual background
 }
 
 TEST_CASE("window: at rest it shows the pixels of render", "[viewer][window]") {

@@ -32,8 +32,8 @@ PictureSize usual_size(const LookOptions& options) { return options.certify > 0 
 void set_defaults(LookOptions& options) {
     if (!options.has_given("shadows")) options.settings.shadows = ShadowMode::off;  // their borders look like edges
     if (!options.has_given("edges")) options.settings.edges = EdgeChoice::feature;
-    if (options.settings.background_linear == usual_settings().background_linear)
-        if (const auto paper = parse_color(kPaper)) options.settings.background_linear = *paper;
+    if (!options.background_linear)
+        if (const auto paper = parse_color(kPaper)) options.background_linear = *paper;
     options.view.orthographic = !options.perspective;
     if (options.camera || options.camera_position || (options.whole_scene && options.film.views.empty())) return;  // one view
     if (options.film.views.empty()) {

@@ -143,6 +143,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
     job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
+    job.settings.background_linear = options.background_linear.value_or(choice->settings.background_linear);
     if (!options.has_given("point_size"))
         job.settings.point_size = options.kept_view ? static_cast<float>(options.kept_view->point_size) : choice->settings.point_size;
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
@@ -278,6 +279,10 @@ void tell_choices(RenderJob& job, const RenderOptions& given) {
                                                                        : ", and the environment " + given.environment,
                                       job.light.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
     job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, given.exposure ? "" : ", chosen"));
+    if (!given.background_linear && !given.settings.background_environment)
+        job.choices.push_back(fmt::format("background: {}", job.settings.background_linear == usual_settings().background_linear
+                                                                ? "dark grey"
+                                                                : "light grey, as surfaces are dark"));
 }
 
 /// The flags' coordinates are the file's with y up; the scene may be drawn elsewhere, and larger or smaller. The margin is in pixels of the

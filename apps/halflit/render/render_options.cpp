@@ -21,7 +21,6 @@ namespace halflit::cli {
 namespace {
 
 using raster::kOffOn;
-constexpr const char* kUsualBackground = "#3a3f47";
 
 using Names = std::span<const std::string_view>;
 
@@ -59,10 +58,11 @@ Result<void> read_exposure(RenderOptions& options, const std::string& text) {
     return {};
 }
 
-Result<void> read_background(Settings& settings, const std::string& text) {
-    settings.background_environment = text == "environment";
-    if (settings.background_environment) return {};
-    return assign(settings.background_linear, parse_color(text));
+Result<void> read_background(RenderOptions& options, const std::string& text) {
+    options.settings.background_environment = text == "environment";
+    options.background_linear.reset();
+    if (options.settings.background_environment || text == "auto") return {};
+    return assign(options.background_linear, parse_color(text));
 }
 
 FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
@@ -73,9 +73,10 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
           fmt::format("Size in pixels (default {}x{}, reduced to the aspect ratio of the file's camera)", usual.width, usual.height),
           parsed(o.size, parse_size)},
          {"--region", "X,Y,W,H", "Draw and write only this part of the picture", parsed(s.region, parse_region)},
-         {"--background", "COLOR|environment",
-          fmt::format("transparent, #rgb, #rrggbb, #rrggbbaa or a name (default {}); environment: the image of --env", kUsualBackground),
-          [&s](const std::string& text) { return read_background(s, text); }},
+         {"--background", "auto|COLOR|environment",
+          "transparent, #rgb, #rrggbb, #rrggbbaa or a name; auto: dark grey, behind dark surfaces light grey (default); environment: the "
+          "image of --env",
+          [&o](const std::string& text) { return read_background(o, text); }},
          {"--exposure", "EV|auto[+EV]",
           "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default); auto+1, auto-0.5: stops brighter",
           [&o](const std::string& text) { return read_exposure(o, text); }}}};

@@ -82,8 +82,9 @@ struct RenderOptions {
     StudioUse studio = StudioUse::for_dark;  ///< if there is no other environment
     bool environment_sun = true;
     float environment_rotate_deg = 0.0f;
-    bool may_want_reference = false;  ///< the environment keeps what --accuracy reference needs, though the accuracy is another
-    std::optional<float> exposure;    ///< a factor; none: chosen from the lights
+    bool may_want_reference = false;         ///< the environment keeps what --accuracy reference needs, though the accuracy is another
+    std::optional<Vec4f> background_linear;  ///< none: one that suits the scene
+    std::optional<float> exposure;           ///< a factor; none: chosen from the lights
     float exposure_compensation_ev = 0.0f;
 
     LoadOptions load;

@@ -32,6 +32,12 @@ namespace {
 /// Of normals that count as equal: the triangles of a flat polygon share a normal. An angle of 0.08 degrees.
 constexpr double kFlatCosine = 1.0 - 1e-6;
 
+/// Triangles of a surface from which on it may be a scan, whose facets bend everywhere: an edge there is sharp if it stands out from the
+/// others at its ends. Parts made by design have flat facets beside their edges, however dense they are.
+constexpr std::size_t kManyTriangles = 10000;
+constexpr double kStandsOut = 4.0;  ///< times the angle that three of four edges at a place have at least
+constexpr double kMostWidened = 2.0;
+
 constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 /// Makes the normals of one place after the other. All edges that matter to a place begin or end there.
@@ -39,7 +45,12 @@ class NormalMaker {
 public:
     /// normals: those that are made; the first one has the number `first`.
     NormalMaker(Soup& soup, double crease_deg, std::vector<Vec3f>& normals, std::uint32_t first)
-        : soup_(soup), normals_(normals), first_(first), least_cosine_(sin_cos(crease_deg * (kPi / 180)).cos) {}
+        : soup_(soup),
+          normals_(normals),
+          first_(first),
+          crease_rad_(crease_deg * (kPi / 180)),
+          least_cosine_(sin_cos(crease_rad_).cos),
+          may_be_scan_(soup.position_of.size() >= 3 * kManyTriangles && crease_deg > 0) {}
 
     void add_normals(std::span<const std::uint32_t> corners) {
         const auto has_normal = [&](std::uint32_t corner) { return soup_.normal_of[corner] != kNone; };
@@ -149,13 +160,14 @@ private:
             check_();
             return std::tie(a.to, a.wedge) < std::tie(b.to, b.wedge);
         });
-        const auto join_if_smooth = [&](const Edge& a, const Edge& b) {
-            if (a.leaves != b.leaves && is_smooth(a.wedge, corners[a.wedge] / 3, b.wedge, corners[b.wedge] / 3)) join(a.wedge, b.wedge);
-        };
         const auto end_of = [&](std::size_t i) {
             std::size_t end = i + 1;
             while (end < edges_.size() && edges_[end].to == edges_[i].to) ++end;
             return end;
+        };
+        least_cosine_here_ = may_be_scan_ ? widened_cosine(end_of) : least_cosine_;
+        const auto join_if_smooth = [&](const Edge& a, const Edge& b) {
+            if (a.leaves != b.leaves && is_smooth(a.wedge, corners[a.wedge] / 3, b.wedge, corners[b.wedge] / 3)) join(a.wedge, b.wedge);
         };
         bool has_copies = false;
         for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) {
@@ -166,6 +178,18 @@ private:
         if (!has_copies) return;
         find_copies(corners);
         for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) join_without_copies(i, end_of(i), join_if_smooth);
+    }
+    /// Of the angle up to which edges at the place are smooth.
+    template <class EndOf>
+    double widened_cosine(const EndOf& end_of) {
+        cosines_.clear();
+        for (std::size_t i = 0; i < edges_.size(); i = end_of(i))
+            if (end_of(i) == i + 2) cosines_.push_back(dot(wedges_[edges_[i].wedge].normal, wedges_[edges_[i + 1].wedge].normal));
+        if (cosines_.empty()) return least_cosine_;
+        const auto third = cosines_.begin() + static_cast<std::ptrdiff_t>(3 * (cosines_.size() - 1) / 4);
+        std::nth_element(cosines_.begin(), third, cosines_.end());
+        const double cosine = std::clamp(*third, -1.0, 1.0), angle = kStandsOut * angle_of(std::sqrt(1.0 - cosine * cosine), cosine);
+        return sin_cos(std::clamp(angle, crease_rad_, std::max(crease_rad_, std::min(kMostWidened * crease_rad_, kPi)))).cos;
     }
     /// Joins the triangles of one edge, edges_[begin] to edges_[end - 1], if without copies there are two, or two with their backs.
     template <class Join>
@@ -190,13 +214,16 @@ private:
         if (group != smoothing(triangle_b)) return false;
         if (group != 0 && group != Soup::kByCrease) return true;
         const Vec3d &x = wedges_[a].normal, &y = wedges_[b].normal;
-        return x != Vec3d{} && y != Vec3d{} && dot(x, y) >= (group == 0 ? kFlatCosine : least_cosine_);
+        return x != Vec3d{} && y != Vec3d{} && dot(x, y) >= (group == 0 ? kFlatCosine : least_cosine_here_);
     }
 
     Soup& soup_;
     std::vector<Vec3f>& normals_;
     std::uint32_t first_;
-    double least_cosine_;
+    double crease_rad_, least_cosine_;
+    bool may_be_scan_;
+    double least_cosine_here_ = 0;
+    std::vector<double> cosines_;
     std::vector<Wedge> wedges_;
     std::vector<Edge> edges_;
     std::vector<Copy> copies_;  ///< of the place's wedges; empty where no edge has copies

@@ -62,7 +62,7 @@ int ModelBuilder::grey_material() {
     Material grey;
     grey.base_color = {0.5f, 0.5f, 0.5f, 1.0f};
     grey.metallic = 0.0f;
-    grey.roughness = 0.55f;
+    grey.roughness = 0.4f;
     grey.double_sided = true;
     return grey_ = add_material(grey);
 }

@@ -71,11 +71,13 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "edge_angle_deg": ("edge_angle_deg", "float"),
     "edge_width": ("edge_width", "float"),
     "max_layers": ("max_layers", "int"),
+    "contact_shadow": ("contact_shadow", "float"),
 }
 #: Keywords that have an effect only if another one is not "none" or "off". 0 of a shadow's is its default, as measure() returns it.
 _PARTS = {
     "edges": ("edge_color", "hidden_edges", "edge_angle_deg", "edge_width"),
-    "shadows": ("shadow_size", "soft_shadow_maps", "shadow_fade", "sky_shadows", "shadow_terminator_offset", "shadow_memory_limit"),
+    "shadows": ("shadow_size", "soft_shadow_maps", "shadow_fade", "sky_shadows", "contact_shadow", "shadow_terminator_offset",
+                "shadow_memory_limit"),
 }
 #: Keywords that have another place here.
 _ELSEWHERE = {
@@ -122,6 +124,8 @@ def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
 
 
 def set_background(settings: Any, value: Any) -> None:
+    if isinstance(value, str) and value == "auto":
+        return
     if isinstance(value, str) and value in ("environment", "transparent"):
         settings.background_environment = value == "environment"
         if value == "transparent":

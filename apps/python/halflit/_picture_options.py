@@ -53,7 +53,8 @@ class PictureOptions(ViewOptions, total=False):
         studio_turn: degrees about the vertical, counter-clockwise seen from above (0)
 
     The picture:
-        background: "transparent", "environment", "#rrggbb", "#rrggbbaa" or linear numbers ("#3a3f47")
+        background: "auto" (dark grey, light grey behind dark surfaces), "transparent", "environment", "#rrggbb", "#rrggbbaa" or linear
+            numbers ("auto")
         region: x, y, width, height: draws this part alone, as the array's whole (all)
         dtype: numpy.uint8 (sRGB codes) or numpy.float32 (linear light) (uint8, or that of out)
         premultiplied: colours are multiplied by alpha (False)
@@ -102,6 +103,8 @@ class PictureOptions(ViewOptions, total=False):
         edge_width: of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)
         max_layers: transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1
             to 2^20; more end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
+        contact_shadow: Opacity of the soft shadow below a model that stands, over the background, where all light from above is
+            hidden: 0 to 1. There is none in a scene with a shadow catcher, without shadows, and seen from below. 0: none. (0)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)
@@ -151,6 +154,7 @@ class PictureOptions(ViewOptions, total=False):
     edge_angle_deg: float
     edge_width: float
     max_layers: int
+    contact_shadow: float
     # How it is computed.
     threads: int
     isa: str

@@ -41,7 +41,7 @@ struct AutoOptions {
 struct AutoSetup {
     Camera camera;        ///< the view to draw
     Lighting light;       ///< the scene's own, with what it lacks
-    Settings settings;    ///< usual_settings(), the exposure, and shadow maps for the picture's size: twice its longer side, 256 to 2048
+    Settings settings;    ///< usual_settings(), the exposure, the size of points, and a background that suits the surfaces' colours
     bool framed = false;  ///< the camera is a view of the whole scene
     ViewSettings view{};  ///< of a view of the whole scene: AutoOptions::view, or another side's
 };
@@ -59,8 +59,8 @@ struct PictureChoice : AutoSetup {
     int scene_camera = -1;  ///< index into Scene::cameras of the view; -1: another camera
 };
 
-/// Four samples, the dark grey background #3a3f47, the neutral tone curve, sky shadows by a grid, textures filtered along footprints up to
-/// four times as long as wide, and otherwise the defaults.
+/// Four samples, the dark grey background #2c3036, the neutral tone curve, sky shadows by a grid, a contact shadow, textures filtered along
+/// footprints up to four times as long as wide, and otherwise the defaults.
 [[nodiscard]] HALFLIT_API Settings usual_settings();
 
 /// Azimuth of the side that the scene faces (Scene::faces_back), degrees: what named views are relative to.
@@ -75,6 +75,7 @@ struct PictureChoice : AutoSetup {
 ///     all around, 0.15 of the studio if there is a directional light, 0.5 if there are point and spot lights alone (StudioUse::never:
 ///     soft_ambient);
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
+/// The background is dark grey (#2c3036), or light grey (#b4bac2) where surfaces are dark in the mean: their silhouette stands out from it.
 /// Points get a size at which they close their surface (closing_point_size). Nothing depends on pixels.
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options = {});
 /// The same. bounds: scene_bounds(scene).

@@ -61,6 +61,9 @@ struct Settings {
     /// 1 (auto): by a grid of at most 64 voxels on a side, which costs little; 3/10 of the light that is lost comes back from other
     /// surfaces. 0, or without shadows: they cast none.
     int sky_shadows = 0;
+    /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1. There is
+    /// none in a scene with a shadow catcher, without shadows, and seen from below. 0: none.
+    float contact_shadow = 0.0f;
     /// Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide them, glass
     /// does not; lines lie on surfaces that they touch. Points at one place are one, as files split vertices.
     EdgeChoice edges = EdgeChoice::none;

@@ -86,7 +86,7 @@ typedef struct halflit_load_options {
     /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape (1). See
     /// halflit_scene_get_placement.
     int32_t recentre;
-    float crease_deg;  ///< files without normals but glTF: smooth across edges up to this angle (30)
+    float crease_deg;  ///< files without normals but glTF: smooth across edges up to this angle, twice as much in noisy scans (30)
     int32_t strict;    ///< refuse a file of which something cannot be drawn: textures, animations, faces with bad indices (0)
     int32_t threads;   ///< threads that decode textures and make normals, the calling one included; 0: one for each core (0)
     const char* const* allow_external;  ///< folders, besides the model's own, in which referenced files may lie
@@ -628,7 +628,10 @@ typedef struct halflit_settings {
     /// transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1 to 2^20; more
     /// end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
     int32_t max_layers;
-    int32_t reserved[1];  ///< 0
+    /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1.
+    /// There is none in a scene with a shadow catcher, without shadows, and seen from below. 0: none. (0)
+    float contact_shadow;
+    int32_t reserved[2];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 

@@ -1,0 +1,227 @@
+#include "raster/view/contact_shadow.hpp"
+
+#include "raster/detail/view_math.hpp"
+#include "raster/view/projection.hpp"
+#include "sh/trig.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace halflit::raster {
+namespace {
+
+constexpr double kFoot = 0.02;     ///< of a scene's height
+constexpr double kUnstable = 0.3;  ///< of a scene's width: so far from its foot lies the middle of one that floats
+
+constexpr int kSide = 64;       ///< cells on a side of the map: bits of a word
+constexpr int kCellVoxels = 2;  ///< along each axis
+constexpr int kDirections = 64, kCountBits = 7;
+constexpr double kFadeFrom = 14;  ///< cells from the map's border, where the shadow begins to fade
+
+using Word = BitGrid::Word;
+
+double smooth(double t) {
+    const double x = clamped(t, 0.0, 1.0);
+    return x * x * (3.0 - 2.0 * x);
+}
+
+/// Bits of a row that have a distance in bits from those of another one; positive: towards the first bit.
+Word shifted(Word bits, int by) {
+    if (by <= -kSide || by >= kSide) return 0;
+    return by < 0 ? bits << -by : bits >> by;
+}
+
+/// The scene's voxels by cells of the map: a layer of rows of z for each height above the ground, bits along x.
+BitGrid cells_above(const FilledVoxels& voxels, int ground_row, const int (&first)[2]) {
+    BitGrid cells((voxels.size[1] - ground_row + kCellVoxels - 1) / kCellVoxels, kSide);
+    for (int z = 0; z < voxels.size[2]; ++z)
+        for (int y = ground_row; y < voxels.size[1]; ++y) {
+            Word& row = cells.row((y - ground_row) / kCellVoxels, first[1] + z / kCellVoxels);
+            for (Word left = voxels.bits.row(z, y); left != 0; left &= left - 1)
+                row |= Word{1} << (first[0] + std::countr_zero(left) / kCellVoxels);
+        }
+    return cells;
+}
+
+/// Finds the cells of the ground from which the sky is hidden in a direction. x, z: how far that goes in a cell's height.
+void add_hidden(const BitGrid& cells, double x, double z, Word (&hidden)[kSide]) {
+    // Between the bottom and the top of a layer so often that it moves by at most a cell.
+    const int steps = static_cast<int>(std::ceil(std::max(absolute(x), absolute(z)))) + 1;
+    for (int k = 0; k < cells.layers; ++k) {
+        const Word* const layer = cells.layer(k);
+        if (std::all_of(layer, layer + kSide, [](Word word) { return word == 0; })) continue;
+        for (int step = 0; step <= steps; ++step) {
+            const double height = k + static_cast<double>(step) / steps;
+            const int bits = static_cast<int>(std::floor(x * height + 0.5)), rows = static_cast<int>(std::floor(z * height + 0.5));
+            for (int r = std::max(0, -rows); r < std::min(kSide, kSide - rows); ++r) hidden[r] |= shifted(layer[r + rows], bits);
+        }
+    }
+}
+
+/// Number of directions of equal light in which each cell's sky is hidden.
+std::vector<float> hidden_counts(const BitGrid& cells) {
+    Word counts[kCountBits][kSide] = {};
+    for (int i = 0; i < kDirections; ++i) {
+        // Equal parts of a disc below a half sphere receive equal parts of its light.
+        const double across = std::sqrt((i + 0.5) / kDirections), up = std::sqrt(1.0 - across * across);
+        const SinCos turn = sin_cos(2.0 * kPi * 0.6180339887498949 * i);
+        Word hidden[kSide] = {};
+        add_hidden(cells, turn.cos * across / up, turn.sin * across / up, hidden);
+        for (int r = 0; r < kSide; ++r)
+            for (Word(&plane)[kSide] : counts) {
+                const Word carry = plane[r] & hidden[r];
+                plane[r] ^= hidden[r];
+                hidden[r] = carry;
+            }
+    }
+    std::vector<float> out;
+    for (int r = 0; r < kSide; ++r)
+        for (int x = 0; x < kSide; ++x) {
+            unsigned count = 0;
+            for (unsigned k = 0; k < kCountBits; ++k) count |= static_cast<unsigned>(counts[k][r] >> x & 1u) << k;
+            out.push_back(static_cast<float>(count));
+        }
+    return out;
+}
+
+/// Weights 1, 4, 6, 4, 1 along both axes, so that no direction's edge is seen.
+void blur(std::vector<float>& values, int step) {
+    const std::vector<float> from = values;
+    for (int at = 0; at < kSide * kSide; ++at) {
+        const int place = at / step % kSide;
+        const auto value = [&](int by) {
+            return from[static_cast<std::size_t>(at + (std::clamp(place + by, 0, kSide - 1) - place) * step)];
+        };
+        values[static_cast<std::size_t>(at)] = (6.0f * value(0) + 4.0f * (value(-1) + value(1)) + (value(-2) + value(2))) * (1.0f / 16.0f);
+    }
+}
+
+/// Calls visit(x, z) for each column that has a filled voxel in a row from first to before end.
+template <class Visit>
+void each_column(const FilledVoxels& voxels, int first, int end, const Visit& visit) {
+    for (int z = 0; z < voxels.size[2]; ++z) {
+        Word any = 0;
+        for (int y = std::max(first, 0); y < std::min(end, voxels.size[1]); ++y) any |= voxels.bits.row(z, y);
+        for (; any != 0; any &= any - 1) visit(std::countr_zero(any), z);
+    }
+}
+
+/// 1: the middle of the scene lies above its foot; less beside it.
+double standing(const FilledVoxels& voxels, double ground) {
+    struct Box {
+        double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9}, sum[2] = {0, 0}, count = 0;
+        void add(double x, double z) {
+            const double at[2] = {x, z};
+            for (int k = 0; k < 2; ++k) low[k] = std::min(low[k], at[k]), high[k] = std::max(high[k], at[k] + 1.0), sum[k] += at[k] + 0.5;
+            count += 1.0;
+        }
+    } all, foot;
+    int top = 0;
+    for (int y = 0; y < voxels.size[1]; ++y) each_column(voxels, y, y + 1, [&](int x, int z) { all.add(x, z), top = y + 1; });
+    const double reach = std::max(1.0, kFoot * (top - ground));
+    each_column(voxels, static_cast<int>(ground), static_cast<int>(ground + reach) + 1, [&](int x, int z) { foot.add(x, z); });
+    if (foot.count == 0.0) return 0.0;
+    double beside = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        const double middle = all.sum[k] / all.count, width = std::max(all.high[0] - all.low[0], all.high[1] - all.low[1]);
+        beside = std::max(beside, std::max(foot.low[k] - middle, middle - foot.high[k]) / width);
+    }
+    return 1.0 - smooth(beside / kUnstable);
+}
+
+ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
+    ContactMap map;
+    map.ground = ground_height;
+    if (voxels.bits.words.empty()) return map;
+    const double ground = (ground_height - voxels.origin[1]) * voxels.per_length;
+    if (!(ground >= 0.0 && ground < voxels.size[1])) return map;
+    const double stands = standing(voxels, ground);
+    if (!(stands > 0.0)) return map;
+    map.per_length = voxels.per_length / kCellVoxels;
+    int first[2];  // cell of the first voxel
+    double* const middle[2] = {&map.first_x, &map.first_z};
+    for (const int k : {0, 1}) {
+        first[k] = (kSide - voxels.size[2 * k] / kCellVoxels) / 2;
+        *middle[k] = voxels.origin[2 * k] + (0.5 - first[k]) / map.per_length;
+    }
+    map.hidden = hidden_counts(cells_above(voxels, static_cast<int>(ground), first));
+    blur(map.hidden, 1), blur(map.hidden, kSide);
+    float* out = map.hidden.data();
+    for (int z = 0; z < kSide; ++z)
+        for (int x = 0; x < kSide; ++x, ++out) {
+            const int border = std::min({x, z, kSide - 1 - x, kSide - 1 - z});
+            *out = static_cast<float>(double{*out} * (stands * smooth(border / kFadeFrom) / kDirections));
+        }
+    return map;
+}
+
+}  // namespace
+
+void make_contact_map(const FilledVoxels& voxels, double ground, KeptContactMap& kept) {
+    if (kept.map != nullptr && kept.revision == voxels.revision) return;
+    kept.map = std::make_shared<const ContactMap>(map_of(voxels, ground));
+    kept.revision = voxels.revision;
+}
+
+ContactShadow::ContactShadow(std::shared_ptr<const ContactMap> map, const Camera& camera, int width, int height, float opacity)
+    : width_(width), height_(height), opacity_(opacity) {
+    const Vec4f eye = camera.world_from_camera.c[3], back = camera.world_from_camera.c[2];
+    if (map == nullptr || map->hidden.empty() || !(camera.orthographic ? back.y > 0.0f : eye.y > map->ground)) return;
+    const Mat4 clip = clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height));
+    const double ground = map->ground;
+    // (x, y, w) of the picture from (x, z, 1) of the ground, and back.
+    const auto row = [&](float Vec4f::*of) {
+        return Vec3d{clip.c[0].*of, clip.c[2].*of, double{clip.c[1].*of} * ground + double{clip.c[3].*of}};
+    };
+    const Vec3d x = row(&Vec4f::x), y = row(&Vec4f::y), w = row(&Vec4f::w);
+    const double determinant = dot(x, cross(y, w));
+    if (!(absolute(determinant) > 0.0)) return;
+    const Vec3d columns_of_inverse[3] = {cross(y, w) * (1.0 / determinant), cross(w, x) * (1.0 / determinant),
+                                         cross(x, y) * (1.0 / determinant)};
+    const auto inverse_row = [&](double Vec3d::*of) {
+        return Vec3d{columns_of_inverse[0].*of, columns_of_inverse[1].*of, columns_of_inverse[2].*of};
+    };
+    weight_ = inverse_row(&Vec3d::z);
+    cell_of_x_ = (inverse_row(&Vec3d::x) - weight_ * map->first_x) * map->per_length;
+    cell_of_z_ = (inverse_row(&Vec3d::y) - weight_ * map->first_z) * map->per_length;
+    // The rectangle around the map's corners, if all lie before the eye.
+    double low[2] = {width_, height_}, high[2] = {0, 0};
+    for (int corner = 0; corner < 4; ++corner) {
+        const Vec3d at{map->first_x + (corner & 1) * (kSide - 1) / map->per_length,
+                       map->first_z + (corner >> 1) * (kSide - 1) / map->per_length, 1.0};
+        const double depth = dot(w, at);
+        const double place[2] = {(0.5 + 0.5 * dot(x, at) / depth) * width_, (0.5 - 0.5 * dot(y, at) / depth) * height_};
+        for (int k = 0; k < 2; ++k) {
+            const double most = k == 0 ? width_ : height_;
+            low[k] = depth > 0.0 ? std::min(low[k], clamped(place[k], 0.0, most)) : 0.0;
+            high[k] = depth > 0.0 ? std::max(high[k], clamped(place[k], 0.0, most)) : most;
+        }
+    }
+    around_ = {static_cast<int>(low[0]), static_cast<int>(low[1]), 0, 0};
+    around_.width = static_cast<int>(std::ceil(high[0])) - around_.x;
+    around_.height = static_cast<int>(std::ceil(high[1])) - around_.y;
+    if (around_.width > 0 && around_.height > 0) map_ = std::move(map);
+}
+
+bool ContactShadow::touches(const Region& rect) const {
+    return map_ != nullptr && rect.x < around_.x + around_.width && around_.x < rect.x + rect.width &&
+           rect.y < around_.y + around_.height && around_.y < rect.y + rect.height;
+}
+
+float ContactShadow::at(int x_px, int y_px) const {
+    if (!touches({x_px, y_px, 1, 1})) return 0.0f;
+    const Vec3d place{(2.0 * x_px + 1.0) / width_ - 1.0, 1.0 - (2.0 * y_px + 1.0) / height_, 1.0};
+    const double weight = dot(weight_, place);
+    if (!(weight > 0.0)) return 0.0f;
+    const double x = dot(cell_of_x_, place) / weight, z = dot(cell_of_z_, place) / weight;
+    if (!(x >= 0.0 && x < kSide - 1 && z >= 0.0 && z < kSide - 1)) return 0.0f;
+    const int i = static_cast<int>(x), k = static_cast<int>(z);
+    const float* const upper = &map_->hidden[static_cast<std::size_t>(k * kSide + i)];
+    const float* const lower = upper + kSide;
+    const double u = x - i, v = z - k;
+    const double above = upper[0] + (double{upper[1]} - upper[0]) * u, below = lower[0] + (double{lower[1]} - lower[0]) * u;
+    return static_cast<float>((above + (below - above) * v) * opacity_);
+}
+
+}  // namespace halflit::raster

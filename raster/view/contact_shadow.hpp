@@ -1,0 +1,57 @@
+// The soft shadow below a model that stands: a map of how much of the sky the model hides from the ground that it stands on, laid over the
+// picture's background. The ground is the level plane through the model's lowest point, and the eye lies above it, so what is drawn of the
+// model always lies before its shadow.
+//
+// Each layer of voxels is shifted along a direction down to the ground: what it covers there is hidden from the sky in that direction. Rows
+// are words, so 64 directions take .2 ms. Directions are spread so that each brings the same part of an even sky's light to the ground.
+#pragma once
+
+#include "halflit/camera.hpp"
+#include "halflit/target.hpp"
+#include "raster/view/filled_voxels.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace halflit::raster {
+
+/// Of the ground below a scene, seen from above: 64 rows along x, one for each z.
+struct ContactMap {
+    std::vector<float> hidden;        ///< share of the sky at each cell's middle, 0 to 1, and 0 at the map's border; empty: nothing stands
+    double ground = 0;                ///< its height, world space
+    double first_x = 0, first_z = 0;  ///< middle of the first cell, world space
+    double per_length = 0;            ///< cells in a world unit
+};
+
+/// The map of a scene and the voxels that it was made of.
+struct KeptContactMap {
+    std::optional<SceneRevision> revision;
+    std::shared_ptr<const ContactMap> map;
+};
+
+/// Makes the map unless it is that of these voxels already. A scene stands if its middle lies above its foot, which is all that lies at
+/// most 2 % of its height, or a voxel, above its lowest point; beside the foot, the shadow fades. ground: height of the lowest point.
+void make_contact_map(const FilledVoxels& voxels, double ground, KeptContactMap& kept);
+
+/// A contact shadow in a picture.
+class ContactShadow {
+public:
+    ContactShadow() = default;
+    /// opacity: of the shadow where all of the sky is hidden. Without effect if the camera does not see the ground from above.
+    ContactShadow(std::shared_ptr<const ContactMap> map, const Camera& camera, int width, int height, float opacity);
+
+    /// False: at() is 0 in all of the rectangle.
+    [[nodiscard]] bool touches(const Region& rect) const;
+    /// Opacity at a pixel's centre, from 0 to 1. Depends only on the pixel's position in the whole picture.
+    [[nodiscard]] float at(int x_px, int y_px) const;
+
+private:
+    std::shared_ptr<const ContactMap> map_;  ///< null: no shadow
+    Vec3d cell_of_x_, cell_of_z_, weight_;  ///< their products with (x, y, 1), x and y from -1 to 1 in the picture: homogeneous coordinates
+    double width_ = 1, height_ = 1;
+    double opacity_ = 0;
+    Region around_{};  ///< pixels outside have none
+};
+
+}  // namespace halflit::raster

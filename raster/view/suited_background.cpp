@@ -1,0 +1,87 @@
+#include "raster/view/suited_background.hpp"
+
+#include "raster/scene/instance_material.hpp"
+#include "raster/scene/mean_color.hpp"
+#include "sh/equirect.hpp"
+#include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
+#include "sh/vec3d.hpp"
+#include "shading/model/srgb.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+namespace {
+
+constexpr std::size_t kMostElements = std::size_t{1} << 16;  ///< triangles, lines or points that are looked at
+/// Light that smooth and rough metals at a silhouette mirror to the eye, over what a white surface scatters there.
+constexpr double kSmoothMirrors = 0.24, kRoughMirrors = 0.66;
+/// Edges of models with this luminance come out as about 105 codes, in the middle between the two backgrounds.
+constexpr double kDark = 0.24;
+
+/// A sum of what is given back, by area.
+struct Mean {
+    double sum = 0, weight = 0;
+    void add(double luminance, double by) { sum += luminance * by, weight += by; }
+};
+
+/// Of white light on a material, where colours are white.
+Vec3d given_back(const Scene& scene, const Material* material) {
+    if (material == nullptr) return {kRoughMirrors, kRoughMirrors, kRoughMirrors};
+    const Vec3f mean = mean_color(scene, material->textures[TextureSlot::base_color]),
+                metal = mean_color(scene, material->textures[TextureSlot::metallic_roughness]);
+    const Vec4f& base = material->base_color;
+    const auto share = [](float factor, float of_texture) { return std::clamp(double{factor} * of_texture, 0.0, 1.0); };
+    const double mirrored = kSmoothMirrors + (kRoughMirrors - kSmoothMirrors) * share(material->roughness, metal.y);
+    const double part = material->unlit ? 1.0 : 1.0 - (1.0 - mirrored) * share(material->metallic, metal.z);
+    return {double{base.x} * mean.x * part, double{base.y} * mean.y * part, double{base.z} * mean.z * part};
+}
+
+}  // namespace
+
+double surface_luminance(const Scene& scene) {
+    std::size_t elements = 0;
+    const auto each_mesh = [&](const auto& visit) {
+        for (const Instance& instance : scene.instances) {
+            if (instance.mesh < 0 || static_cast<std::size_t>(instance.mesh) >= scene.meshes.size()) continue;
+            if (counts_for_views(scene, instance)) visit(instance, scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+        }
+    };
+    each_mesh([&](const Instance&, const Mesh& mesh) { elements += mesh.indices.size() / corners_of(mesh.topology); });
+    const std::size_t stride = elements / kMostElements + 1;
+    Mean triangles, others;
+    std::size_t next = 0;  // element of the mesh that is looked at
+    TimeCheck check;
+    each_mesh([&](const Instance& instance, const Mesh& mesh) {
+        check();
+        const std::size_t corners = corners_of(mesh.topology), count = mesh.indices.size() / corners;
+        const Vec3d material = given_back(scene, material_of(scene, instance));
+        for (; next < count; next += stride) {
+            const std::uint32_t* const corner = &mesh.indices[next * corners];
+            const Vec4f color = mesh.colors.empty() ? Vec4f{1, 1, 1, 1} : mesh.colors[corner[0]];
+            const Vec3d light{material.x * color.x * instance.color.x, material.y * color.y * instance.color.y,
+                              material.z * color.z * instance.color.z};
+            const double luminance = std::clamp(sh::luminance(light), 0.0, 1.0);
+            if (corners < 3) {
+                others.add(luminance, 1.0);
+                continue;
+            }
+            const auto at = [&](std::size_t c) {
+                return to_double(transform_point(instance.world_from_object, mesh.positions[corner[c]]));
+            };
+            const double area = length(cross(at(1) - at(0), at(2) - at(0)));
+            if (area < 1e100) triangles.add(luminance, area);  // false for what is not a number
+        }
+        next -= std::min(next, count);
+    });
+    const Mean& mean = triangles.weight > 0.0 ? triangles : others;
+    return mean.weight > 0.0 && mean.sum == mean.sum ? mean.sum / mean.weight : 0.5;
+}
+
+Vec4f suited_background(const Scene& scene) {
+    const auto& code = surface_luminance(scene) < kDark ? kLightBackground : kDarkBackground;
+    const auto linear = [&](int channel) { return static_cast<float>(shading::linear_from_srgb(code[channel] / 255.0)); };
+    return {linear(0), linear(1), linear(2), 1.0f};
+}
+
+}  // namespace halflit::raster
