@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace halflit::raster {
 namespace {
@@ -19,6 +20,12 @@ Vec4f resolved(const float (&sum)[4], float weight) {
     const float alpha = sum[3] * weight;
     if (!(alpha > 0.0f)) return {0, 0, 0, number_or_zero(alpha)};
     return number_or_zero(Vec4f{sum[0] * weight / alpha, sum[1] * weight / alpha, sum[2] * weight / alpha, alpha});
+}
+
+/// Light times alpha, and alpha, before which a black surface lies.
+Vec4f under_shadow(Vec4f back, float opacity) {
+    const float kept = 1.0f - opacity;
+    return number_or_zero(Vec4f{back.x * kept, back.y * kept, back.z * kept, back.w * kept + opacity});
 }
 
 }  // namespace
@@ -112,9 +119,8 @@ PictureTile::BackgroundSample PictureTile::background_at(int at) const {
     const Vec4f back = has_background() ? number_or_zero(plan_.background.at(x, y)) : background_sample();
     const float share = has_background() ? 0.0f : 1.0f;
     if (!has_contact_shadow_) return {back, share};
-    const float shadow = plan_.contact_shadow.at(x, y), kept = 1.0f - shadow;
-    if (shadow == 0.0f) return {back, share};
-    return {number_or_zero(Vec4f{back.x * kept, back.y * kept, back.z * kept, back.w * kept + shadow}), share * kept};
+    const float shadow = plan_.contact_shadow.at(x, y);
+    return shadow == 0.0f ? BackgroundSample{back, share} : BackgroundSample{under_shadow(back, shadow), share * (1.0f - shadow)};
 }
 
 void PictureTile::set_background(int at, int place) {
@@ -258,23 +264,42 @@ PictureTile::Pixel PictureTile::background_pixel() const {
 
 /// The same as through samples: without surfaces all are alike, and the tone curve keeps what is black.
 void PictureTile::write_background(const int* at, int count) {
+    if (count == 0) return;
     const Output& output = pass_.output;
-    ResolvedPixels row;
+    const Pixel plain = background_pixel();
+    const Vec4f back = background_sample();
+    const auto place = [&](int one) { return std::pair(rect_.x + one % kTileStride, rect_.y + one / kTileStride); };
+    int shadowed[kTileStride], some = 0;
+    float sample[4][kTileStride];
     for (int i = 0; i < count; ++i) {
-        const Vec4f back = background_at(at[i]).color;
-        const float sample[4] = {back.x, back.y, back.z, back.w};
-        float sum[4] = {0, 0, 0, 0};
-        for (int s = 0; s < samples_; ++s)
-            for (int k = 0; k < 4; ++k) sum[k] += sample[k];
-        const Vec4f pixel = resolved(sum, 1.0f / static_cast<float>(samples_));
+        const auto [x, y] = place(at[i]);
+        if (const float shadow = plan_.contact_shadow.at(x, y); shadow > 0.0f) {
+            const Vec4f color = under_shadow(back, shadow);
+            sample[0][some] = color.x, sample[1][some] = color.y, sample[2][some] = color.z, sample[3][some] = color.w;
+            shadowed[some++] = at[i];
+            continue;
+        }
+        if (output.codes) std::memcpy(output.codes.at(x, y), &plain.code, sizeof plain.code);
+        if (output.linear) output.write_linear(x, y, plain.linear.x, plain.linear.y, plain.linear.z, plain.linear.w);
+    }
+    if (some == 0) return;
+    ResolvedPixels row;
+    const float weight = 1.0f / static_cast<float>(samples_);
+    for (int k = 0; k < 4; ++k) {
+        std::copy_n(sample[k], some, row.linear[k]);
+        for (int s = 1; s < samples_; ++s)
+            for (int i = 0; i < some; ++i) row.linear[k][i] += sample[k][i];
+    }
+    for (int i = 0; i < some; ++i) {
+        const Vec4f pixel = resolved({row.linear[0][i], row.linear[1][i], row.linear[2][i], row.linear[3][i]}, weight);
         row.linear[0][i] = pixel.x, row.linear[1][i] = pixel.y, row.linear[2][i] = pixel.z, row.linear[3][i] = pixel.w;
     }
     if (output.codes) {
-        pass_.view.shade.encode_srgb8(row.linear[0], row.linear[1], row.linear[2], row.linear[3], 1.0f, row.code, count);
-        output.finish_codes(row.code, count);
+        pass_.view.shade.encode_srgb8(row.linear[0], row.linear[1], row.linear[2], row.linear[3], 1.0f, row.code, some);
+        output.finish_codes(row.code, some);
     }
-    for (int i = 0; i < count; ++i) {
-        const int x = rect_.x + at[i] % kTileStride, y = rect_.y + at[i] / kTileStride;
+    for (int i = 0; i < some; ++i) {
+        const auto [x, y] = place(shadowed[i]);
         if (output.codes) std::memcpy(output.codes.at(x, y), &row.code[i], sizeof row.code[i]);
         if (output.linear) output.write_linear(x, y, row.linear[0][i], row.linear[1][i], row.linear[2][i], row.linear[3][i]);
     }
@@ -300,7 +325,7 @@ void PictureTile::resolve_parts() {
     TileScratch::PartPixels& parts = scratch_.parts;
     const Output& output = pass_.output;
     // The background between them: an environment is seen through samples, as it is beside triangles.
-    const Pixel back = has_background() ? Pixel{} : background_pixel();
+    const Pixel back = background_varies() ? Pixel{} : background_pixel();
     for (int y = written_.y; y < written_.y + written_.height; ++y) {
         const std::size_t row = static_cast<std::size_t>(y - rect_.y);
         const std::uint64_t wanted = (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x);

@@ -17,19 +17,14 @@ constexpr double kUnstable = 0.3;  ///< of a scene's width: so far from its foot
 constexpr int kSide = 64;       ///< cells on a side of the map: bits of a word
 constexpr int kCellVoxels = 2;  ///< along each axis
 constexpr int kDirections = 64, kCountBits = 7;
-constexpr double kFadeFrom = 14;  ///< cells from the map's border, where the shadow begins to fade
+constexpr double kFadeFrom = 14;       ///< cells from the map's border, where the shadow begins to fade
+constexpr double kPictureFade = 0.06;  ///< the same from the picture's border, over its shorter side: a shadow is not cut off there
 
 using Word = BitGrid::Word;
 
 double smooth(double t) {
     const double x = clamped(t, 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
-}
-
-/// Bits of a row that have a distance in bits from those of another one; positive: towards the first bit.
-Word shifted(Word bits, int by) {
-    if (by <= -kSide || by >= kSide) return 0;
-    return by < 0 ? bits << -by : bits >> by;
 }
 
 /// The scene's voxels by cells of the map: a layer of rows of z for each height above the ground, bits along x.
@@ -44,30 +39,35 @@ BitGrid cells_above(const FilledVoxels& voxels, int ground_row, const int (&firs
     return cells;
 }
 
-/// Finds the cells of the ground from which the sky is hidden in a direction. x, z: how far that goes in a cell's height.
-void add_hidden(const BitGrid& cells, double x, double z, Word (&hidden)[kSide]) {
-    // Between the bottom and the top of a layer so often that it moves by at most a cell.
-    const int steps = static_cast<int>(std::ceil(std::max(absolute(x), absolute(z)))) + 1;
+/// Finds the cells of the ground from which the sky is hidden in a direction. x, z: how far that goes in a cell's height. first_row,
+/// end_row: of the cells that something may fill.
+void add_hidden(const BitGrid& cells, int first_row, int end_row, double x, double z, Word (&hidden)[kSide]) {
+    // From the bottom of a layer to that of the next one so often that it moves by at most a cell.
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::max(absolute(x), absolute(z)))));
     for (int k = 0; k < cells.layers; ++k) {
         const Word* const layer = cells.layer(k);
-        if (std::all_of(layer, layer + kSide, [](Word word) { return word == 0; })) continue;
-        for (int step = 0; step <= steps; ++step) {
+        for (int step = 0; step < steps; ++step) {
             const double height = k + static_cast<double>(step) / steps;
             const int bits = static_cast<int>(std::floor(x * height + 0.5)), rows = static_cast<int>(std::floor(z * height + 0.5));
-            for (int r = std::max(0, -rows); r < std::min(kSide, kSide - rows); ++r) hidden[r] |= shifted(layer[r + rows], bits);
+            if (bits <= -kSide || bits >= kSide) break;
+            const int begin = std::max(0, first_row - rows), end = std::min(kSide, end_row - rows);
+            if (bits < 0)
+                for (int r = begin; r < end; ++r) hidden[r] |= layer[r + rows] << -bits;
+            else
+                for (int r = begin; r < end; ++r) hidden[r] |= layer[r + rows] >> bits;
         }
     }
 }
 
 /// Number of directions of equal light in which each cell's sky is hidden.
-std::vector<float> hidden_counts(const BitGrid& cells) {
+std::vector<float> hidden_counts(const BitGrid& cells, int first_row, int end_row) {
     Word counts[kCountBits][kSide] = {};
     for (int i = 0; i < kDirections; ++i) {
         // Equal parts of a disc below a half sphere receive equal parts of its light.
         const double across = std::sqrt((i + 0.5) / kDirections), up = std::sqrt(1.0 - across * across);
         const SinCos turn = sin_cos(2.0 * kPi * 0.6180339887498949 * i);
         Word hidden[kSide] = {};
-        add_hidden(cells, turn.cos * across / up, turn.sin * across / up, hidden);
+        add_hidden(cells, first_row, end_row, turn.cos * across / up, turn.sin * across / up, hidden);
         for (int r = 0; r < kSide; ++r)
             for (Word(&plane)[kSide] : counts) {
                 const Word carry = plane[r] & hidden[r];
@@ -145,7 +145,8 @@ ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
         first[k] = (kSide - voxels.size[2 * k] / kCellVoxels) / 2;
         *middle[k] = voxels.origin[2 * k] + (0.5 - first[k]) / map.per_length;
     }
-    map.hidden = hidden_counts(cells_above(voxels, static_cast<int>(ground), first));
+    const int end_row = first[1] + (voxels.size[2] + kCellVoxels - 1) / kCellVoxels;
+    map.hidden = hidden_counts(cells_above(voxels, static_cast<int>(ground), first), first[1], end_row);
     blur(map.hidden, 1), blur(map.hidden, kSide);
     float* out = map.hidden.data();
     for (int z = 0; z < kSide; ++z)
@@ -165,9 +166,8 @@ void make_contact_map(const FilledVoxels& voxels, double ground, KeptContactMap&
 }
 
 ContactShadow::ContactShadow(std::shared_ptr<const ContactMap> map, const Camera& camera, int width, int height, float opacity)
-    : width_(width), height_(height), opacity_(opacity) {
-    const Vec4f eye = camera.world_from_camera.c[3], back = camera.world_from_camera.c[2];
-    if (map == nullptr || map->hidden.empty() || !(camera.orthographic ? back.y > 0.0f : eye.y > map->ground)) return;
+    : width_(width), height_(height), fade_px_(kPictureFade * std::min(width, height)), opacity_(opacity) {
+    if (map == nullptr || map->hidden.empty() || camera.orthographic || !(camera.world_from_camera.c[3].y > map->ground)) return;
     const Mat4 clip = clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height));
     const double ground = map->ground;
     // (x, y, w) of the picture from (x, z, 1) of the ground, and back.
@@ -182,11 +182,17 @@ ContactShadow::ContactShadow(std::shared_ptr<const ContactMap> map, const Camera
     const auto inverse_row = [&](double Vec3d::*of) {
         return Vec3d{columns_of_inverse[0].*of, columns_of_inverse[1].*of, columns_of_inverse[2].*of};
     };
-    weight_ = inverse_row(&Vec3d::z);
-    cell_of_x_ = (inverse_row(&Vec3d::x) - weight_ * map->first_x) * map->per_length;
-    cell_of_z_ = (inverse_row(&Vec3d::y) - weight_ * map->first_z) * map->per_length;
+    const Vec3d of_weight = inverse_row(&Vec3d::z);
+    // Of (x, y, 1) in pixels.
+    const auto in_pixels = [&](Vec3d row_of_picture) {
+        return Vec3d{row_of_picture.x * (2.0 / width_), row_of_picture.y * (-2.0 / height_),
+                     (row_of_picture.z - row_of_picture.x) + row_of_picture.y};
+    };
+    weight_ = in_pixels(of_weight);
+    cell_of_x_ = in_pixels((inverse_row(&Vec3d::x) - of_weight * map->first_x) * map->per_length);
+    cell_of_z_ = in_pixels((inverse_row(&Vec3d::y) - of_weight * map->first_z) * map->per_length);
     // The rectangle around the map's corners, if all lie before the eye.
-    double low[2] = {width_, height_}, high[2] = {0, 0};
+    double low[2] = {static_cast<double>(width), static_cast<double>(height)}, high[2] = {0, 0};
     for (int corner = 0; corner < 4; ++corner) {
         const Vec3d at{map->first_x + (corner & 1) * (kSide - 1) / map->per_length,
                        map->first_z + (corner >> 1) * (kSide - 1) / map->per_length, 1.0};
@@ -211,17 +217,19 @@ bool ContactShadow::touches(const Region& rect) const {
 
 float ContactShadow::at(int x_px, int y_px) const {
     if (!touches({x_px, y_px, 1, 1})) return 0.0f;
-    const Vec3d place{(2.0 * x_px + 1.0) / width_ - 1.0, 1.0 - (2.0 * y_px + 1.0) / height_, 1.0};
+    const Vec3d place{x_px + 0.5, y_px + 0.5, 1.0};
     const double weight = dot(weight_, place);
     if (!(weight > 0.0)) return 0.0f;
-    const double x = dot(cell_of_x_, place) / weight, z = dot(cell_of_z_, place) / weight;
+    const double per_weight = 1.0 / weight, x = dot(cell_of_x_, place) * per_weight, z = dot(cell_of_z_, place) * per_weight;
     if (!(x >= 0.0 && x < kSide - 1 && z >= 0.0 && z < kSide - 1)) return 0.0f;
     const int i = static_cast<int>(x), k = static_cast<int>(z);
     const float* const upper = &map_->hidden[static_cast<std::size_t>(k * kSide + i)];
     const float* const lower = upper + kSide;
     const double u = x - i, v = z - k;
     const double above = upper[0] + (double{upper[1]} - upper[0]) * u, below = lower[0] + (double{lower[1]} - lower[0]) * u;
-    return static_cast<float>((above + (below - above) * v) * opacity_);
+    const double share = above + (below - above) * v;
+    const int border = std::min(std::min(x_px, y_px), std::min(width_ - 1 - x_px, height_ - 1 - y_px));
+    return static_cast<float>(share * (border < fade_px_ ? opacity_ * smooth(border / fade_px_) : opacity_));
 }
 
 }  // namespace halflit::raster

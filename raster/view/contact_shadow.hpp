@@ -38,18 +38,20 @@ void make_contact_map(const FilledVoxels& voxels, double ground, KeptContactMap&
 class ContactShadow {
 public:
     ContactShadow() = default;
-    /// opacity: of the shadow where all of the sky is hidden. Without effect if the camera does not see the ground from above.
+    /// opacity: of the shadow where all of the sky is hidden. Without effect by parallel rays, as drawings have none, and if
+    /// the eye is not above the ground.
     ContactShadow(std::shared_ptr<const ContactMap> map, const Camera& camera, int width, int height, float opacity);
 
     /// False: at() is 0 in all of the rectangle.
     [[nodiscard]] bool touches(const Region& rect) const;
-    /// Opacity at a pixel's centre, from 0 to 1. Depends only on the pixel's position in the whole picture.
+    /// Opacity at a pixel's centre, from 0 to 1; 0 at the picture's border. Depends only on the pixel's position in the whole picture.
     [[nodiscard]] float at(int x_px, int y_px) const;
 
 private:
     std::shared_ptr<const ContactMap> map_;  ///< null: no shadow
-    Vec3d cell_of_x_, cell_of_z_, weight_;  ///< their products with (x, y, 1), x and y from -1 to 1 in the picture: homogeneous coordinates
-    double width_ = 1, height_ = 1;
+    Vec3d cell_of_x_, cell_of_z_, weight_;   ///< their products with (x, y, 1), pixels: homogeneous coordinates
+    int width_ = 1, height_ = 1;
+    double fade_px_ = 1;  ///< from the picture's border
     double opacity_ = 0;
     Region around_{};  ///< pixels outside have none
 };

@@ -213,6 +213,7 @@ static void test_struct_sizes(void) {
     }
     cube.settings.shadow_size = 0;                 // the default, which a shorter struct stands for
     cube.settings.tone_curve = HALFLIT_TONE_NONE;  // so too
+    cube.settings.contact_shadow = 0;              // so too
     older = cube.settings;
     expected = draw_cube(NULL, &cube);
     CHECK(expected != 0);

@@ -604,7 +604,7 @@ class Parts(unittest.TestCase):
     def test_an_empty_scene_is_its_background(self):
         with self.assertWarnsRegex(UserWarning, "nothing to draw"):
             picture = halflit.Scene().render(8)
-        self.assertEqual(np.unique(picture.reshape(-1, 4), axis=0).tolist(), [[0x3A, 0x3F, 0x47, 255]])
+        self.assertEqual(np.unique(picture.reshape(-1, 4), axis=0).tolist(), [[0x2C, 0x30, 0x36, 255]])
 
 
 if __name__ == "__main__":

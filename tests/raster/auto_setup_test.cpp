@@ -63,7 +63,8 @@ bool chosen(const Camera& camera, Scene scene = box_scene()) {
 }  // namespace
 
 TEST_CASE(
-    "setup: the usual settings are four samples over dark grey, the neutral curve, hidden skies, anisotropic filters, and else defaults",
+    "setup: the usual settings are four samples over dark grey, the neutral curve, hidden skies, a contact shadow, anisotropic filters, "
+    "and else defaults",
     "[raster][setup]") {
     Settings s = usual_settings();
     CHECK(s.samples == 4);
@@ -73,8 +74,10 @@ TEST_CASE(
     REQUIRE(render(Scene{}, Camera{}, s, {.width = 1, .height = 1, .pixels = pixels.data()}));
     CHECK(pixels == std::vector<std::uint8_t>{0x2c, 0x30, 0x36, 0xff});
     CHECK(s.sky_shadows == kSkyShadowsAuto);
+    CHECK(s.contact_shadow == 0.85f);
     s.samples = Settings{}.samples;
     s.sky_shadows = Settings{}.sky_shadows;
+    s.contact_shadow = Settings{}.contact_shadow;
     s.tone_curve = Settings{}.tone_curve;
     s.shading.anisotropy = Settings{}.shading.anisotropy;
     s.background_linear = Settings{}.background_linear;

@@ -24,8 +24,7 @@ namespace {
 
 /// These formats have no alpha.
 void warn_of_lost_transparency(const PictureOptions& options, OutputFormat format) {
-    const Settings& settings = options.settings;
-    const bool transparent = settings.background_linear.w < 1.0f && !settings.background_environment;
+    const bool transparent = options.background_linear && options.background_linear->w < 1.0f;
     if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr || format == OutputFormat::pfm))
         print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga .exr keep it)");
 }

@@ -67,7 +67,7 @@ def save_image(scene: Any, resolution: Any = None, background: Any = None, **opt
     made = Scene()
     add(made, scene)
     _add_lights(made, scene)
-    pixels = made.render((size[0], size[1]), camera=_camera(scene), background=_codes(background))
+    pixels = made.render((size[0], size[1]), camera=_camera(scene), background=_codes(background), contact_shadow=0)
     return pixels.to_png()
 
 

@@ -62,7 +62,7 @@ struct Settings {
     /// surfaces. 0, or without shadows: they cast none.
     int sky_shadows = 0;
     /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1. There is
-    /// none in a scene with a shadow catcher, without shadows, and seen from below. 0: none.
+    /// none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below. 0: none.
     float contact_shadow = 0.0f;
     /// Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide them, glass
     /// does not; lines lie on surfaces that they touch. Points at one place are one, as files split vertices.

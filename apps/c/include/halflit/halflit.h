@@ -629,7 +629,7 @@ typedef struct halflit_settings {
     /// end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
     int32_t max_layers;
     /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1.
-    /// There is none in a scene with a shadow catcher, without shadows, and seen from below. 0: none. (0)
+    /// There is none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below. 0: none. (0)
     float contact_shadow;
     int32_t reserved[2];  ///< 0
 } halflit_settings;
