@@ -17,8 +17,8 @@ constexpr double kUnstable = 0.3;  ///< of a scene's width: so far from its foot
 constexpr int kSide = 64;       ///< cells on a side of the map: bits of a word
 constexpr int kCellVoxels = 2;  ///< along each axis
 constexpr int kDirections = 64, kCountBits = 7;
-constexpr double kFadeFrom = 14;       ///< cells from the map's border, where the shadow begins to fade
-constexpr double kPictureFade = 0.06;  ///< the same from the picture's border, over its shorter side: a shadow is not cut off there
+constexpr double kReach = 16;          ///< voxels beside the foot, within which the shadow fades
+constexpr double kPictureFade = 0.06;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
 
 using Word = BitGrid::Word;
 
@@ -107,27 +107,36 @@ void each_column(const FilledVoxels& voxels, int first, int end, const Visit& vi
     }
 }
 
-/// 1: the middle of the scene lies above its foot; less beside it.
-double standing(const FilledVoxels& voxels, double ground) {
-    struct Box {
-        double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9}, sum[2] = {0, 0}, count = 0;
-        void add(double x, double z) {
-            const double at[2] = {x, z};
-            for (int k = 0; k < 2; ++k) low[k] = std::min(low[k], at[k]), high[k] = std::max(high[k], at[k] + 1.0), sum[k] += at[k] + 0.5;
-            count += 1.0;
-        }
-    } all, foot;
+/// Where a scene stands: all that lies a little above its lowest point.
+struct Foot {
+    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};  ///< voxels along x and z; empty while low > high
+    double standing = 0;                                 ///< 1: the middle of the scene lies above it; less beside it
+};
+
+Foot foot_of(const FilledVoxels& voxels, double ground) {
+    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9}, sum[2] = {0, 0}, count = 0;
     int top = 0;
-    for (int y = 0; y < voxels.size[1]; ++y) each_column(voxels, y, y + 1, [&](int x, int z) { all.add(x, z), top = y + 1; });
+    for (int y = 0; y < voxels.size[1]; ++y)
+        each_column(voxels, y, y + 1, [&](int x, int z) {
+            const int at[2] = {x, z};
+            for (const int k : {0, 1})
+                low[k] = std::min(low[k], at[k] + 0.0), high[k] = std::max(high[k], at[k] + 1.0), sum[k] += at[k] + 0.5;
+            count += 1.0, top = y + 1;
+        });
+    Foot foot;
     const double reach = std::max(1.0, kFoot * (top - ground));
-    each_column(voxels, static_cast<int>(ground), static_cast<int>(ground + reach) + 1, [&](int x, int z) { foot.add(x, z); });
-    if (foot.count == 0.0) return 0.0;
+    each_column(voxels, static_cast<int>(ground), static_cast<int>(ground + reach) + 1, [&](int x, int z) {
+        const int at[2] = {x, z};
+        for (const int k : {0, 1}) foot.low[k] = std::min(foot.low[k], at[k] + 0.0), foot.high[k] = std::max(foot.high[k], at[k] + 1.0);
+    });
+    if (foot.low[0] > foot.high[0]) return foot;
     double beside = 0.0;
-    for (int k = 0; k < 2; ++k) {
-        const double middle = all.sum[k] / all.count, width = std::max(all.high[0] - all.low[0], all.high[1] - all.low[1]);
+    for (const int k : {0, 1}) {
+        const double middle = sum[k] / count, width = std::max(high[0] - low[0], high[1] - low[1]);
         beside = std::max(beside, std::max(foot.low[k] - middle, middle - foot.high[k]) / width);
     }
-    return 1.0 - smooth(beside / kUnstable);
+    foot.standing = 1.0 - smooth(beside / kUnstable);
+    return foot;
 }
 
 ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
@@ -136,8 +145,8 @@ ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
     if (voxels.bits.words.empty()) return map;
     const double ground = (ground_height - voxels.origin[1]) * voxels.per_length;
     if (!(ground >= 0.0 && ground < voxels.size[1])) return map;
-    const double stands = standing(voxels, ground);
-    if (!(stands > 0.0)) return map;
+    const Foot foot = foot_of(voxels, ground);
+    if (!(foot.standing > 0.0)) return map;
     map.per_length = voxels.per_length / kCellVoxels;
     int first[2];  // cell of the first voxel
     double* const middle[2] = {&map.first_x, &map.first_z};
@@ -148,11 +157,18 @@ ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
     const int end_row = first[1] + (voxels.size[2] + kCellVoxels - 1) / kCellVoxels;
     map.hidden = hidden_counts(cells_above(voxels, static_cast<int>(ground), first), first[1], end_row);
     blur(map.hidden, 1), blur(map.hidden, kSide);
+    const auto beside_foot = [&](int cell, int axis) {
+        const double at = (cell - first[axis] + 0.5) * kCellVoxels;
+        return std::max({0.0, foot.low[axis] - at, at - foot.high[axis]});
+    };
     float* out = map.hidden.data();
     for (int z = 0; z < kSide; ++z)
         for (int x = 0; x < kSide; ++x, ++out) {
-            const int border = std::min({x, z, kSide - 1 - x, kSide - 1 - z});
-            *out = static_cast<float>(double{*out} * (stands * smooth(border / kFadeFrom) / kDirections));
+            const double across = beside_foot(x, 0), along = beside_foot(z, 1), distance = std::sqrt(across * across + along * along);
+            *out = static_cast<float>(double{*out} * (foot.standing * smooth(1.0 - distance / kReach) / kDirections));
+            if (*out == 0.0f) continue;
+            map.low[0] = std::min(map.low[0], x - 1), map.high[0] = std::max(map.high[0], x + 1);
+            map.low[1] = std::min(map.low[1], z - 1), map.high[1] = std::max(map.high[1], z + 1);
         }
     return map;
 }
@@ -191,11 +207,11 @@ ContactShadow::ContactShadow(std::shared_ptr<const ContactMap> map, const Camera
     weight_ = in_pixels(of_weight);
     cell_of_x_ = in_pixels((inverse_row(&Vec3d::x) - of_weight * map->first_x) * map->per_length);
     cell_of_z_ = in_pixels((inverse_row(&Vec3d::y) - of_weight * map->first_z) * map->per_length);
-    // The rectangle around the map's corners, if all lie before the eye.
+    // The rectangle around the shadow's corners, if all lie before the eye.
     double low[2] = {static_cast<double>(width), static_cast<double>(height)}, high[2] = {0, 0};
     for (int corner = 0; corner < 4; ++corner) {
-        const Vec3d at{map->first_x + (corner & 1) * (kSide - 1) / map->per_length,
-                       map->first_z + (corner >> 1) * (kSide - 1) / map->per_length, 1.0};
+        const Vec3d at{map->first_x + ((corner & 1) != 0 ? map->high : map->low)[0] / map->per_length,
+                       map->first_z + ((corner & 2) != 0 ? map->high : map->low)[1] / map->per_length, 1.0};
         const double depth = dot(w, at);
         const double place[2] = {(0.5 + 0.5 * dot(x, at) / depth) * width_, (0.5 - 0.5 * dot(y, at) / depth) * height_};
         for (int k = 0; k < 2; ++k) {

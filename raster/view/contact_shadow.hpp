@@ -18,10 +18,11 @@ namespace halflit::raster {
 
 /// Of the ground below a scene, seen from above: 64 rows along x, one for each z.
 struct ContactMap {
-    std::vector<float> hidden;        ///< share of the sky at each cell's middle, 0 to 1, and 0 at the map's border; empty: nothing stands
-    double ground = 0;                ///< its height, world space
-    double first_x = 0, first_z = 0;  ///< middle of the first cell, world space
-    double per_length = 0;            ///< cells in a world unit
+    std::vector<float> hidden;  ///< share of the sky at each cell's middle, 0 to 1, and 0 at the map's border; empty: nothing stands
+    int low[2] = {64, 64}, high[2] = {-1, -1};  ///< cells along x and z from the first to the last whose share may be above 0
+    double ground = 0;                          ///< its height, world space
+    double first_x = 0, first_z = 0;            ///< middle of the first cell, world space
+    double per_length = 0;                      ///< cells in a world unit
 };
 
 /// The map of a scene and the voxels that it was made of.

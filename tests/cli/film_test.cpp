@@ -45,6 +45,22 @@ std::string arm_file(const TemporaryFolder& folder) {
     return path;
 }
 
+/// A cube that rises by its height in a second.
+std::string rising_cube_file(const TemporaryFolder& folder) {
+    std::string path = folder.file("cube.gltf");
+    write_contents(path, R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes)"
+                         R"(":{"POSITION":0},"indices":1}]}],"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translatio)"
+                         R"(n"}}],"samplers":[{"input":2,"output":3}]}],"buffers":[{"byteLength":164,"uri":"data:application/octet-stream;)"
+                         R"(base64,AAAAvwAAAAAAAAC/AAAAvwAAAAAAAAA/AAAAvwAAgD8AAAC/AAAAvwAAgD8AAAA/AAAAPwAAAAAAAAC/AAAAPwAAAAAAAAA/AAAAPwA)"
+                         R"(AgD8AAAC/AAAAPwAAgD8AAAA/AAEDAAMCBAYHBAcFAAQFAAUBAgMHAgcGAAIGAAYEAQUHAQcDAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAACAP)"
+                         R"(wAAAAA="}],"bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36},{"buffer":)"
+                         R"(0,"byteOffset":132,"byteLength":8},{"buffer":0,"byteOffset":140,"byteLength":24}],"accessors":[{"bufferView":0)"
+                         R"(,"componentType":5126,"count":8,"type":"VEC3","min":[-0.5,0,-0.5],"max":[0.5,1,0.5]},{"bufferView":1,"componen)"
+                         R"(tType":5121,"count":36,"type":"SCALAR"},{"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR","min":[)"
+                         R"(0],"max":[1]},{"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"}]})");
+    return path;
+}
+
 std::vector<nlohmann::json> lines_of(const std::string& text) {
     std::vector<nlohmann::json> out;
     std::istringstream in(text);
@@ -241,8 +257,9 @@ TEST_CASE("frames: an animation that turns on a turntable has the same frames fr
 TEST_CASE("frames: an animation's frames are the pictures of --time, at N / fps seconds", "[cli][film]") {
     const TemporaryFolder folder;
     const std::string arm = arm_file(folder);
-    // A camera and an exposure that do not depend on the scene.
-    const Strings look{"--camera-position", "9,7,12", "--camera-target", "0,0,0", "--exposure", "1", "--no-scene-lights", "--env", "sky"};
+    // A camera and an exposure that do not depend on the scene, and no shadow, which lies on the ground of the whole film.
+    const Strings look{"--camera-position", "9,7,12", "--camera-target", "0,0,0", "--exposure", "1", "--no-scene-lights", "--env", "sky",
+                       "--contact-shadow",  "0"};
     Strings film = look;
     film.insert(film.end(), {"--frames", "0-20:10", "--fps", "12.5", "-o", folder.file("n_{frame:02}.png"), "--report", "-"});
     const auto report = lines_of(draw(arm, film).out);
@@ -260,6 +277,29 @@ TEST_CASE("frames: an animation's frames are the pictures of --time, at N / fps 
         hashes.insert(one["pixel_hash"]);
     }
     CHECK(hashes.size() == 3);
+}
+
+TEST_CASE("frames: a model that rises leaves its contact shadow behind, and one that is turned keeps it", "[cli][film]") {
+    const TemporaryFolder folder;
+    const auto shadow_pixels = [&](const std::string& name) {
+        const Picture picture = read_picture(contents(folder.file(name)));
+        int count = 0;
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x) count += picture.pixel(x, y)[3] > 8 && picture.pixel(x, y)[3] < 200;
+        return count;
+    };
+    const std::string cube = rising_cube_file(folder);
+    const std::vector<std::string> flags{"--background", "transparent", "--fps", "10", "-o", folder.file("{}.png")};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), flags.begin(), flags.end());
+        return more;
+    };
+    draw(cube, with({"--frames", "0-10", "--camera", "frame"}));
+    CHECK(shadow_pixels("0.png") > 50);
+    CHECK(shadow_pixels("1.png") == 0);
+    CHECK(shadow_pixels("10.png") == 0);
+    draw(cube, {"--turntable", "3", "--background", "transparent", "-o", folder.file("turned_{}.png")});
+    for (const std::string name : {"turned_0.png", "turned_1.png", "turned_2.png"}) CHECK(shadow_pixels(name) > 50);
 }
 
 TEST_CASE("frames: nothing of a turntable or of an animation touches the picture's edge", "[cli][film]") {

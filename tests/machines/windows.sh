@@ -10,6 +10,7 @@ apt-get install -y -qq --no-install-recommends cmake ninja-build ccache pkg-conf
     nlohmann-json3-dev libstb-dev libcli11-dev libtinygltf-dev catch2 g++-mingw-w64-x86-64-posix wine64 >/dev/null
 export WINEDEBUG=-all WINEPREFIX=/build/wine
 # One server for all programs: tests start hundreds, and wine's services take seconds to start. They hold our standard streams open.
+mkdir -p $WINEPREFIX
 /usr/lib/wine/wineserver -p </dev/null >/dev/null 2>&1
 trap '/usr/lib/wine/wineserver -k || true' EXIT
 # run STEP COMMAND...: quiet unless it fails.

@@ -233,6 +233,14 @@ private:
         return {};
     }
 
+    /// A model that leaves the ground, as in a jump, leaves its contact shadow behind: 0 from a twentieth of the film's height on.
+    [[nodiscard]] float standing_share() const {
+        constexpr float kMost = 0.05f;
+        const Bounds &all = job_->film.bounds, &now = job_->prepared->bounds();
+        const float above = now.min.y - all.min.y, most = kMost * (all.max.y - all.min.y);
+        return most > 0.0f ? std::clamp(1.0f - above / most, 0.0f, 1.0f) : 1.0f;
+    }
+
     Result<Drawn> draw(std::size_t i) {
         if (const auto measured = measure(); !measured) return tl::unexpected(measured.error());
         const Stopwatch preparing;
@@ -250,7 +258,9 @@ private:
         drawn.planes = &planes_[drawn_count_ % pictures_.size()];
         Target target = target_of(*job_, *drawn.picture);
         drawn.planes->add_to(target);
-        const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, job_->settings, target, job_->timed_execution());
+        Settings settings = job_->settings;
+        if (options_.film.animates()) settings.contact_shadow *= standing_share();
+        const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, settings, target, job_->timed_execution());
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));
         drawn.rendered = *rendered;
