@@ -9,9 +9,11 @@ apt-get update -qq
 apt-get install -y -qq --no-install-recommends cmake ninja-build ccache pkg-config g++ nasm dpkg-dev libxsimd-dev libexpected-dev \
     nlohmann-json3-dev libstb-dev libcli11-dev libtinygltf-dev catch2 g++-mingw-w64-x86-64-posix wine64 >/dev/null
 export WINEDEBUG=-all WINEPREFIX=/build/wine
-# One server for all programs: tests start hundreds, and wine's services take seconds to start. They hold our standard streams open.
+# One server for all programs: tests start hundreds, and wine's services take seconds to start. These keep the standard streams of the
+# program that started them, for whose end CMake would wait: so they are started here, without any.
 mkdir -p $WINEPREFIX
 /usr/lib/wine/wineserver -p </dev/null >/dev/null 2>&1
+/usr/lib/wine/wine64 wineboot --init </dev/null >/dev/null 2>&1
 trap '/usr/lib/wine/wineserver -k || true' EXIT
 # run STEP COMMAND...: quiet unless it fails.
 run() {
