@@ -257,18 +257,16 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
 }
 
 bool has_shadow_catcher(const PreparedData& prepared) {
-    const std::vector<Material>& materials = prepared.scene().materials;
-    for (std::size_t i = 0; i < materials.size(); ++i)
-        if (prepared.drawn_materials()[i] && materials[i].shadow_catcher) return true;
+    for (std::size_t i = 0; i < prepared.drawn_materials().size(); ++i)
+        if (prepared.drawn_materials()[i] && prepared.material(i).shadow_catcher) return true;
     return false;
 }
 
 ContactShadow plan_contact_shadow(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
                                   FramePlanMemory& memory) {
-    const Bounds& bounds = scene.framed_bounds();
-    if (settings.contact_shadow == 0.0f || settings.shadows == ShadowMode::off || bounds.empty || has_shadow_catcher(scene)) return {};
+    if (settings.contact_shadow == 0.0f || settings.shadows == ShadowMode::off || has_shadow_catcher(scene)) return {};
     fill_voxels(scene, memory.voxels);
-    make_contact_map(memory.voxels, double{bounds.min.y}, memory.contact_map);
+    make_contact_map(memory.voxels, memory.contact_map);
     return {memory.contact_map.map, camera, width, height, settings.contact_shadow};
 }
 

@@ -8,6 +8,8 @@
 namespace halflit {
 
 inline constexpr double kPi = 3.14159265358979323846;
+/// The golden section of a turn, (sqrt(5) - 1) / 2: steps of a spiral that fills a disc evenly.
+inline constexpr double kGoldenTurn = 0.6180339887498949;
 
 namespace detail {
 /// Taylor series on |r| <= pi/4; the first dropped term is below 2^-53 relative.

@@ -46,7 +46,6 @@ std::vector<Vec3d> cells_of_ambient(const Ambient& ambient, int rows) {
 }  // namespace
 
 std::vector<Vec3d> sky_directions(int n) {
-    constexpr double kGoldenTurn = 0.61803398874989485;  // of a whole turn, (sqrt(5) - 1) / 2
     std::vector<Vec3d> directions;
     double turn = 0.0;
     for (int i = 0; i < n; ++i) {

@@ -122,9 +122,11 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
 
     settings_.background_environment = false;
     settings_.background_linear = {0, 0, 0, 0};
+    settings_.contact_shadow = 0.0f;
     const auto coverage = draw(space_.exact());
     settings_.background_environment = job_.settings.background_environment;
     settings_.background_linear = job_.settings.background_linear;
+    settings_.contact_shadow = job_.settings.contact_shadow;
     if (!coverage) return tl::unexpected(coverage.error());
     references_.emplace_back(*picture, *coverage, job_.settings.tone_curve);
     pictures_.push_back(std::move(*picture));

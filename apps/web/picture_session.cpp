@@ -30,6 +30,7 @@ constexpr std::string_view kSettingsFlags[] = {"--camera",
                                                "--shading",
                                                "--shadows",
                                                "--sky-shadows",
+                                               "--contact-shadow",
                                                "--specular-normalize",
                                                "--sh-order",
                                                "--tonemap",
@@ -143,6 +144,7 @@ Result<void> PictureSession::compare(const std::string& scene, const std::vector
     settings.shading.environment_bands = 0;
     settings.background_linear = {0, 0, 0, 0};
     settings.background_environment = false;
+    settings.contact_shadow = 0.0f;
     const auto coverage = render(settings, true);
     if (!coverage) return tl::unexpected(coverage.error());
     settings = job_->settings;

@@ -5,6 +5,7 @@
 #include "sh/arc.hpp"
 #include "sh/equirect.hpp"
 #include "sh/fp_environment.hpp"
+#include "sh/smoothstep.hpp"
 #include "sh/trig.hpp"
 
 #include <algorithm>
@@ -14,12 +15,6 @@ namespace halflit {
 namespace {
 
 constexpr int kStudioRows = 64;
-
-/// 0 below 0, 1 above 1, smooth between them.
-double smooth(double t) {
-    const double x = std::clamp(t, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
 
 Vec3d mixed(Vec3d a, Vec3d b, double t) { return a + (b - a) * t; }
 
@@ -45,7 +40,7 @@ public:
         const double along = dot(d, towards_);
         if (!(along > 1e-3)) return {};
         const auto inside = [&](double across, double per_side) {
-            return smooth((1.0 - (across < 0.0 ? -across : across) / along * per_side) / kEdge);
+            return smoothstep((1.0 - (across < 0.0 ? -across : across) / along * per_side) / kEdge);
         };
         return radiance_ * (inside(dot(d, right_), per_width_) * inside(dot(d, up_), per_height_));
     }
@@ -59,11 +54,11 @@ private:
 Vec3d room(Vec3d d) {
     const Vec3d horizon{0.251, 0.256, 0.263}, wall{0.164, 0.171, 0.184}, ceiling{0.097, 0.103, 0.116};
     const Vec3d near_floor{0.193, 0.186, 0.176}, floor{0.097, 0.092, 0.087};
-    const Vec3d above = mixed(mixed(horizon, wall, smooth(d.y / 0.35)), ceiling, smooth((d.y - 0.3) / 0.7));
-    const Vec3d below = mixed(near_floor, floor, smooth(d.y / -0.8));
+    const Vec3d above = mixed(mixed(horizon, wall, smoothstep(d.y / 0.35)), ceiling, smoothstep((d.y - 0.3) / 0.7));
+    const Vec3d below = mixed(near_floor, floor, smoothstep(d.y / -0.8));
     // The room is darker behind the viewer: mirrors that face him get contrast.
-    const double behind = smooth((d.z - 0.1) / 0.9) * smooth(0.5 + 3.0 * d.y);
-    return mixed(below, above, smooth(0.5 + 10.0 * d.y)) * (1.0 - 0.45 * behind);
+    const double behind = smoothstep((d.z - 0.1) / 0.9) * smoothstep(0.5 + 3.0 * d.y);
+    return mixed(below, above, smoothstep(0.5 + 10.0 * d.y)) * (1.0 - 0.45 * behind);
 }
 
 }  // namespace

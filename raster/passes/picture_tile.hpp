@@ -99,14 +99,9 @@ private:
     [[nodiscard]] Vec4f keep_of(int material, int lane, Vec4f light) const;  ///< LayerScratch::keep, of the scratch's block
     void blend_fragment(std::size_t fragment, int at, int sample);           ///< lays a fragment of the layers over a sample
     // resolve.cpp
-    /// Of every sample of a pixel: light times alpha, and alpha, and the share of the background colour in it.
-    struct BackgroundSample {
-        Vec4f color;
-        float share;
-    };
-    [[nodiscard]] BackgroundSample background_at(int at) const;  ///< at: of the pixel in the tile's buffers
-    void set_background(int at, int place);                      ///< sets a pixel's samples; place: of these, in the buffers
-    [[nodiscard]] Vec4f background_sample() const;               ///< of the background colour: times alpha, and alpha
+    [[nodiscard]] Vec4f background_at(int at) const;  ///< of every sample of a pixel; at: in the tile's buffers
+    void set_background(int at, int place);           ///< sets a pixel's samples; place: of these, in the buffers
+    [[nodiscard]] Vec4f background_sample() const;    ///< of the background colour: times alpha, and alpha
     [[nodiscard]] bool has_background() const { return plan_.background && !pass_.view.behind; }  ///< an environment is seen
     /// The background is not one colour in all of the tile.
     [[nodiscard]] bool background_varies() const { return has_background() || has_contact_shadow_; }
@@ -116,8 +111,9 @@ private:
         Vec4f linear{0, 0, 0, 0};
         std::uint32_t code = 0;  ///< as the caller's memory has it
     };
-    [[nodiscard]] Pixel background_pixel() const;                               ///< of the background colour
-    void write_background(const int* at, int count);                            ///< of pixels in the tile's buffers, at most kTileStride
+    [[nodiscard]] Pixel background_pixel() const;  ///< of the background colour
+    /// Writes the background of pixels in the tile's buffers, at most kTileStride; plain: of the background colour.
+    void write_background(const int* at, int count, const Pixel& plain);
     void fill_samples();                                                        ///< sets every sample to the background of its pixel
     void write(const FragmentList& list, const shading::FragmentBlock& block);  ///< to the caller's memory or to samples
     void write_samples(const FragmentList& list, const shading::FragmentBlock& block);
@@ -151,7 +147,8 @@ private:
     void add_shown(int at, unsigned samples, Vec4f color);  ///< color: times alpha, and alpha. After cover_backing
     /// Adds what `count` pixels from `at` on show of sample s: display light times alpha, and alpha.
     void add_toned_samples(int at, int count, float* const sums[4]);
-    void add_toned_sample(int s, int at, int count, float* const sums[4]);
+    /// backs: the background colour at each of the pixels.
+    void add_toned_sample(int s, int at, int count, const Vec4f* backs, float* const sums[4]);
     [[nodiscard]] float* sample_color(int s) { return scratch_.color.data() + static_cast<std::size_t>(s) * 4 * kTilePixels; }
 
     const PicturePass& pass_;

@@ -22,7 +22,7 @@ Vec4f resolved(const float (&sum)[4], float weight) {
     return number_or_zero(Vec4f{sum[0] * weight / alpha, sum[1] * weight / alpha, sum[2] * weight / alpha, alpha});
 }
 
-/// Light times alpha, and alpha, before which a black surface lies.
+/// Lays a black surface over light times alpha, and alpha.
 Vec4f under_shadow(Vec4f back, float opacity) {
     const float kept = 1.0f - opacity;
     return number_or_zero(Vec4f{back.x * kept, back.y * kept, back.z * kept, back.w * kept + opacity});
@@ -113,23 +113,22 @@ int PictureTile::part_of(int at) {
     return place;
 }
 
-/// An environment is light, as a surface's is. A shadow is a black surface before either.
-PictureTile::BackgroundSample PictureTile::background_at(int at) const {
+/// An environment is light, as a surface's is. A shadow is a black surface before either, and a part of the background.
+Vec4f PictureTile::background_at(int at) const {
     const int x = rect_.x + at % kTileStride, y = rect_.y + at / kTileStride;
     const Vec4f back = has_background() ? number_or_zero(plan_.background.at(x, y)) : background_sample();
-    const float share = has_background() ? 0.0f : 1.0f;
-    if (!has_contact_shadow_) return {back, share};
-    const float shadow = plan_.contact_shadow.at(x, y);
-    return shadow == 0.0f ? BackgroundSample{back, share} : BackgroundSample{under_shadow(back, shadow), share * (1.0f - shadow)};
+    const float shadow = has_contact_shadow_ ? plan_.contact_shadow.at(x, y) : 0.0f;
+    return shadow == 0.0f ? back : under_shadow(back, shadow);
 }
 
 void PictureTile::set_background(int at, int place) {
-    const BackgroundSample back = background_at(at);
-    for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * place, &back.color, sizeof back.color);
+    const Vec4f back = background_at(at);
+    for (int s = 0; s < samples_; ++s) std::memcpy(sample_color(s) + 4 * place, &back, sizeof back);
     if (!toned_) return;
-    for (int s = 0; s < samples_; ++s) scratch_.backing.data()[s * kTilePixels + place] = back.share;
+    const float share = has_background() ? 0.0f : 1.0f;
+    for (int s = 0; s < samples_; ++s) scratch_.backing.data()[s * kTilePixels + place] = share;
     if (!transmits_) return;
-    for (int s = 0; s < 3 * samples_; ++s) scratch_.tint.data()[s * kTilePixels + place] = back.share;
+    for (int s = 0; s < 3 * samples_; ++s) scratch_.tint.data()[s * kTilePixels + place] = share;
 }
 
 /// All samples of a pixel have one value, whose mean is taken by the operations that the mean of samples takes.
@@ -218,15 +217,15 @@ void PictureTile::fill_background() {
         return;
     }
     const Output& output = pass_.output;
+    const Pixel back = background_pixel();
     if (has_contact_shadow_) {
         int at[kTileStride];
         for (int y = written_.y; y < written_.y + written_.height; ++y) {
             for (int x = 0; x < written_.width; ++x) at[x] = (y - rect_.y) * kTileStride + (written_.x - rect_.x) + x;
-            write_background(at, written_.width);
+            write_background(at, written_.width, back);
         }
         return;
     }
-    const Pixel back = background_pixel();
     if (output.codes) {
         std::uint32_t code[kTileStride];
         std::fill_n(code, written_.width, back.code);
@@ -262,11 +261,9 @@ PictureTile::Pixel PictureTile::background_pixel() const {
     return pixel;
 }
 
-/// The same as through samples: without surfaces all are alike, and the tone curve keeps what is black.
-void PictureTile::write_background(const int* at, int count) {
-    if (count == 0) return;
+/// The same as through samples: without surfaces all are alike.
+void PictureTile::write_background(const int* at, int count, const Pixel& plain) {
     const Output& output = pass_.output;
-    const Pixel plain = background_pixel();
     const Vec4f back = background_sample();
     const auto place = [&](int one) { return std::pair(rect_.x + one % kTileStride, rect_.y + one / kTileStride); };
     int shadowed[kTileStride], some = 0;
@@ -325,7 +322,7 @@ void PictureTile::resolve_parts() {
     TileScratch::PartPixels& parts = scratch_.parts;
     const Output& output = pass_.output;
     // The background between them: an environment is seen through samples, as it is beside triangles.
-    const Pixel back = background_varies() ? Pixel{} : background_pixel();
+    const Pixel back = has_background() ? Pixel{} : background_pixel();
     for (int y = written_.y; y < written_.y + written_.height; ++y) {
         const std::size_t row = static_cast<std::size_t>(y - rect_.y);
         const std::uint64_t wanted = (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x);
@@ -343,7 +340,7 @@ void PictureTile::resolve_parts() {
             if (output.codes) std::memcpy(output.codes.at(rect_.x + x, y), &back.code, sizeof back.code);
             if (output.linear) output.write_linear(rect_.x + x, y, back.linear.x, back.linear.y, back.linear.z, back.linear.w);
         }
-        write_background(at, count);
+        write_background(at, count, back);
     }
     ResolvedPixels some;
     for (int first = 0; first < parts.count; first += kMaxTileSize) {

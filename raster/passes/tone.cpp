@@ -102,15 +102,19 @@ void PictureTile::add_toned_samples(int at, int count, float* const sums[4]) {
         }
         if (done == 0) {
             done = std::min(kTonedLanes, count - x);
-            for (int s = 0; s < samples_; ++s) add_toned_sample(s, at + x, done, rest);
+            Vec4f backs[kTonedLanes];
+            for (int i = 0; i < done; ++i) {
+                const int place = at + x + i;
+                backs[i] = has_contact_shadow_ ? background_at(has_whole_ ? scratch_.parts.pixel[place] : place) : back;
+            }
+            for (int s = 0; s < samples_; ++s) add_toned_sample(s, at + x, done, backs, rest);
         }
         x += done;
     }
 }
 
-void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4]) {
+void PictureTile::add_toned_sample(int s, int at, int count, const Vec4f* backs, float* const sums[4]) {
     alignas(64) float light[3][kTonedLanes] = {}, front[kTonedLanes];
-    const Vec4f back = background_sample();
     const float* const color = sample_color(s) + 4 * at;
     const float* const backing = scratch_.backing.data() + s * kTilePixels + at;
     // What shows of the background colour in each channel.
@@ -132,8 +136,8 @@ void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4
         for (int x = 0; x < count; ++x)
             for (int i = 0; i < 3; ++i) light[i][x] = color[4 * x + i];
     } else {
-        const float of_back[4] = {back.x, back.y, back.z, back.w};
         for (int x = 0; x < count; ++x) {
+            const float of_back[4] = {backs[x].x, backs[x].y, backs[x].z, backs[x].w};
             // What shows of the background colour is taken off. What is left is light times alpha, and alpha.
             float left[4];
             for (int i = 0; i < 4; ++i) {
@@ -162,6 +166,7 @@ void PictureTile::add_toned_sample(int s, int at, int count, float* const sums[4
     }
     for (int x = 0; x < count; ++x) {
         // An infinite background must not make a NaN where it is hidden.
+        const Vec4f& back = backs[x];
         const float red = share_of[0][x], green = share_of[1][x], blue = share_of[2][x];
         sums[0][x] += light[0][x] * front[x] + (red > 0.0f ? back.x * red : 0.0f);
         sums[1][x] += light[1][x] * front[x] + (green > 0.0f ? back.y * green : 0.0f);

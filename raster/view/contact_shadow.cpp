@@ -2,6 +2,7 @@
 
 #include "raster/detail/view_math.hpp"
 #include "raster/view/projection.hpp"
+#include "sh/smoothstep.hpp"
 #include "sh/trig.hpp"
 
 #include <algorithm>
@@ -13,19 +14,16 @@ namespace {
 
 constexpr double kFoot = 0.02;     ///< of a scene's height
 constexpr double kUnstable = 0.3;  ///< of a scene's width: so far from its foot lies the middle of one that floats
+/// A foot narrower than this, of the scene's width, has a paler shadow: most of what stands on a point floats, but balls do not.
+constexpr double kNarrow = 0.35, kPalest = 0.33;
 
 constexpr int kSide = 64;       ///< cells on a side of the map: bits of a word
 constexpr int kCellVoxels = 2;  ///< along each axis
-constexpr int kDirections = 64, kCountBits = 7;
-constexpr double kReach = 16;          ///< voxels beside the foot, within which the shadow fades
-constexpr double kPictureFade = 0.06;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
+constexpr int kDirections = 64, kCountBits = std::bit_width(unsigned{kDirections});
+constexpr double kReach = 0.3;         ///< within which the shadow fades beside the foot, over the longest side
+constexpr double kPictureFade = 0.04;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
 
 using Word = BitGrid::Word;
-
-double smooth(double t) {
-    const double x = clamped(t, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
 
 /// The scene's voxels by cells of the map: a layer of rows of z for each height above the ground, bits along x.
 BitGrid cells_above(const FilledVoxels& voxels, int ground_row, const int (&first)[2]) {
@@ -63,9 +61,9 @@ void add_hidden(const BitGrid& cells, int first_row, int end_row, double x, doub
 std::vector<float> hidden_counts(const BitGrid& cells, int first_row, int end_row) {
     Word counts[kCountBits][kSide] = {};
     for (int i = 0; i < kDirections; ++i) {
-        // Equal parts of a disc below a half sphere receive equal parts of its light.
+        // Points of a spiral that fills a disc evenly [Vog79], lifted to the half sphere above it: equal parts of its light (Malley).
         const double across = std::sqrt((i + 0.5) / kDirections), up = std::sqrt(1.0 - across * across);
-        const SinCos turn = sin_cos(2.0 * kPi * 0.6180339887498949 * i);
+        const SinCos turn = sin_cos(2.0 * kPi * kGoldenTurn * i);
         Word hidden[kSide] = {};
         add_hidden(cells, first_row, end_row, turn.cos * across / up, turn.sin * across / up, hidden);
         for (int r = 0; r < kSide; ++r)
@@ -110,7 +108,7 @@ void each_column(const FilledVoxels& voxels, int first, int end, const Visit& vi
 /// Where a scene stands: all that lies a little above its lowest point.
 struct Foot {
     double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};  ///< voxels along x and z; empty while low > high
-    double standing = 0;                                 ///< 1: the middle of the scene lies above it; less beside it
+    double standing = 0;                                 ///< 1: the middle of the scene lies above it, and it is not narrow; down to 0
 };
 
 Foot foot_of(const FilledVoxels& voxels, double ground) {
@@ -130,20 +128,23 @@ Foot foot_of(const FilledVoxels& voxels, double ground) {
         for (const int k : {0, 1}) foot.low[k] = std::min(foot.low[k], at[k] + 0.0), foot.high[k] = std::max(foot.high[k], at[k] + 1.0);
     });
     if (foot.low[0] > foot.high[0]) return foot;
+    const auto width_of = [](const double(&from)[2], const double(&to)[2]) { return std::max(to[0] - from[0], to[1] - from[1]); };
+    const double width = width_of(low, high);
     double beside = 0.0;
     for (const int k : {0, 1}) {
-        const double middle = sum[k] / count, width = std::max(high[0] - low[0], high[1] - low[1]);
+        const double middle = sum[k] / count;
         beside = std::max(beside, std::max(foot.low[k] - middle, middle - foot.high[k]) / width);
     }
-    foot.standing = 1.0 - smooth(beside / kUnstable);
+    const double broad = smoothstep(width_of(foot.low, foot.high) / (kNarrow * width));
+    foot.standing = (1.0 - smoothstep(beside / kUnstable)) * (kPalest + (1.0 - kPalest) * broad);
     return foot;
 }
 
-ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
+ContactMap map_of(const FilledVoxels& voxels) {
     ContactMap map;
-    map.ground = ground_height;
+    map.ground = voxels.lowest;
     if (voxels.bits.words.empty()) return map;
-    const double ground = (ground_height - voxels.origin[1]) * voxels.per_length;
+    const double ground = (voxels.lowest - voxels.origin[1]) * voxels.per_length;
     if (!(ground >= 0.0 && ground < voxels.size[1])) return map;
     const Foot foot = foot_of(voxels, ground);
     if (!(foot.standing > 0.0)) return map;
@@ -161,11 +162,12 @@ ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
         const double at = (cell - first[axis] + 0.5) * kCellVoxels;
         return std::max({0.0, foot.low[axis] - at, at - foot.high[axis]});
     };
+    const double reach = kReach * (std::max({voxels.size[0], voxels.size[1], voxels.size[2]}) - 2 * kFreeVoxels);
     float* out = map.hidden.data();
     for (int z = 0; z < kSide; ++z)
         for (int x = 0; x < kSide; ++x, ++out) {
             const double across = beside_foot(x, 0), along = beside_foot(z, 1), distance = std::sqrt(across * across + along * along);
-            *out = static_cast<float>(double{*out} * (foot.standing * smooth(1.0 - distance / kReach) / kDirections));
+            *out = static_cast<float>(double{*out} * (foot.standing * smoothstep(1.0 - distance / reach) / kDirections));
             if (*out == 0.0f) continue;
             map.low[0] = std::min(map.low[0], x - 1), map.high[0] = std::max(map.high[0], x + 1);
             map.low[1] = std::min(map.low[1], z - 1), map.high[1] = std::max(map.high[1], z + 1);
@@ -175,9 +177,9 @@ ContactMap map_of(const FilledVoxels& voxels, double ground_height) {
 
 }  // namespace
 
-void make_contact_map(const FilledVoxels& voxels, double ground, KeptContactMap& kept) {
-    if (kept.map != nullptr && kept.revision == voxels.revision) return;
-    kept.map = std::make_shared<const ContactMap>(map_of(voxels, ground));
+void make_contact_map(const FilledVoxels& voxels, KeptContactMap& kept) {
+    if (kept.revision == voxels.revision) return;
+    kept.map = std::make_shared<const ContactMap>(map_of(voxels));
     kept.revision = voxels.revision;
 }
 
@@ -245,7 +247,7 @@ float ContactShadow::at(int x_px, int y_px) const {
     const double above = upper[0] + (double{upper[1]} - upper[0]) * u, below = lower[0] + (double{lower[1]} - lower[0]) * u;
     const double share = above + (below - above) * v;
     const int border = std::min(std::min(x_px, y_px), std::min(width_ - 1 - x_px, height_ - 1 - y_px));
-    return static_cast<float>(share * (border < fade_px_ ? opacity_ * smooth(border / fade_px_) : opacity_));
+    return static_cast<float>(share * (border < fade_px_ ? opacity_ * smoothstep(border / fade_px_) : opacity_));
 }
 
 }  // namespace halflit::raster

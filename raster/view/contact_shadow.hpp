@@ -25,15 +25,14 @@ struct ContactMap {
     double per_length = 0;                      ///< cells in a world unit
 };
 
-/// The map of a scene and the voxels that it was made of.
 struct KeptContactMap {
-    std::optional<SceneRevision> revision;
+    std::optional<SceneRevision> revision;  ///< of the voxels that it was made of; none: nothing is made yet
     std::shared_ptr<const ContactMap> map;
 };
 
 /// Makes the map unless it is that of these voxels already. A scene stands if its middle lies above its foot, which is all that lies at
-/// most 2 % of its height, or a voxel, above its lowest point; beside the foot, the shadow fades. ground: height of the lowest point.
-void make_contact_map(const FilledVoxels& voxels, double ground, KeptContactMap& kept);
+/// most 2 % of its height, or a voxel, above its lowest point. Beside the foot the shadow fades, and below a narrow one it is paler.
+void make_contact_map(const FilledVoxels& voxels, KeptContactMap& kept);
 
 /// A contact shadow in a picture.
 class ContactShadow {

@@ -121,6 +121,7 @@ FilledVoxels filled_voxels(const PreparedData& scene) {
     if (!(longest > 1e-6 * length(middle) && longest > 1e-18 && longest < 1e18)) return voxels;
     const double voxel = rounded_up(longest / (kMostVoxels - 2 * kFreeVoxels - 1));
     voxels.per_length = 1.0 / voxel;
+    voxels.lowest = low.y;
     const double lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
     for (int axis = 0; axis < 3; ++axis) {
         const double first = std::floor(lows[axis] / voxel - kPhase) - kFreeVoxels,

@@ -43,6 +43,7 @@ struct FilledVoxels {
     int size[3] = {0, 0, 0};
     double origin[3] = {0, 0, 0};  ///< a corner of the first voxel, world space
     double per_length = 0;         ///< voxels in a world unit
+    double lowest = 0;             ///< the scene's least y, world space
 };
 
 /// Marks the voxels unless they are this scene's already.

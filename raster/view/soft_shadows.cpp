@@ -12,8 +12,6 @@ namespace {
 
 using shading::LightPlan, shading::ShadowMapPlan;
 
-constexpr double kGoldenTurn = 0.61803398874989485;  // (sqrt(5) - 1) / 2, of a whole turn
-
 Vec3d vector_of(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 void set(float (&to)[3], Vec3d v) { to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y), to[2] = static_cast<float>(v.z); }

@@ -16,7 +16,9 @@ namespace {
 constexpr std::size_t kMostElements = std::size_t{1} << 16;  ///< triangles, lines or points that are looked at
 /// Light that smooth and rough metals at a silhouette mirror to the eye, over what a white surface scatters there.
 constexpr double kSmoothMirrors = 0.24, kRoughMirrors = 0.66;
-/// Edges of models with this luminance come out as about 105 codes, in the middle between the two backgrounds.
+/// sRGB codes of the usual background, and of that behind dark surfaces.
+constexpr int kDarkBackground[] = {0x2c, 0x30, 0x36}, kLightBackground[] = {0xb4, 0xba, 0xc2};
+/// Edges of models with this luminance come out as about 105 codes, between the two backgrounds.
 constexpr double kDark = 0.24;
 
 /// A sum of what is given back, by area.
@@ -25,16 +27,25 @@ struct Mean {
     void add(double luminance, double by) { sum += luminance * by, weight += by; }
 };
 
-/// Of white light on a material, where colours are white.
-Vec3d given_back(const Scene& scene, const Material* material) {
-    if (material == nullptr) return {kRoughMirrors, kRoughMirrors, kRoughMirrors};
-    const Vec3f mean = mean_color(scene, material->textures[TextureSlot::base_color]),
-                metal = mean_color(scene, material->textures[TextureSlot::metallic_roughness]);
-    const Vec4f& base = material->base_color;
-    const auto share = [](float factor, float of_texture) { return std::clamp(double{factor} * of_texture, 0.0, 1.0); };
+/// What a material sends to the eye under white light, where vertices and instances are white.
+struct SurfaceLight {
+    Vec3d back;        ///< of that light
+    Vec3d own{};       ///< emission
+    double alpha = 1;  ///< of a blended material's colour
+};
+
+SurfaceLight light_of(const Scene& scene, const Material* material) {
+    if (material == nullptr) return {{kRoughMirrors, kRoughMirrors, kRoughMirrors}};
+    const auto mean = [&](TextureSlot slot) { return to_double(mean_color(scene, material->textures[slot])); };
+    const auto share = [](float factor, double of_texture) { return std::clamp(double{factor} * of_texture, 0.0, 1.0); };
+    const Vec3d color = mean(TextureSlot::base_color), metal = mean(TextureSlot::metallic_roughness), own = mean(TextureSlot::emissive);
     const double mirrored = kSmoothMirrors + (kRoughMirrors - kSmoothMirrors) * share(material->roughness, metal.y);
     const double part = material->unlit ? 1.0 : 1.0 - (1.0 - mirrored) * share(material->metallic, metal.z);
-    return {double{base.x} * mean.x * part, double{base.y} * mean.y * part, double{base.z} * mean.z * part};
+    SurfaceLight light;
+    light.back = Vec3d{material->base_color.x * color.x, material->base_color.y * color.y, material->base_color.z * color.z} * part;
+    if (!material->unlit) light.own = {material->emissive.x * own.x, material->emissive.y * own.y, material->emissive.z * own.z};
+    if (material->alpha_mode == AlphaMode::blend) light.alpha = share(material->base_color.w, 1.0);
+    return light;
 }
 
 }  // namespace
@@ -55,22 +66,24 @@ double surface_luminance(const Scene& scene) {
     each_mesh([&](const Instance& instance, const Mesh& mesh) {
         check();
         const std::size_t corners = corners_of(mesh.topology), count = mesh.indices.size() / corners;
-        const Vec3d material = given_back(scene, material_of(scene, instance));
+        const SurfaceLight surface = light_of(scene, material_of(scene, instance));
         for (; next < count; next += stride) {
             const std::uint32_t* const corner = &mesh.indices[next * corners];
-            const Vec4f color = mesh.colors.empty() ? Vec4f{1, 1, 1, 1} : mesh.colors[corner[0]];
-            const Vec3d light{material.x * color.x * instance.color.x, material.y * color.y * instance.color.y,
-                              material.z * color.z * instance.color.z};
-            const double luminance = std::clamp(sh::luminance(light), 0.0, 1.0);
+            // The scene is not checked yet.
+            if (!std::all_of(corner, corner + corners, [&](std::uint32_t vertex) { return vertex < mesh.positions.size(); })) continue;
+            const Vec4f color = corner[0] < mesh.colors.size() ? mesh.colors[corner[0]] : Vec4f{1, 1, 1, 1};
+            const Vec3d light{surface.back.x * color.x * instance.color.x, surface.back.y * color.y * instance.color.y,
+                              surface.back.z * color.z * instance.color.z};
+            const double luminance = std::clamp(sh::luminance(light + surface.own), 0.0, 1.0);
             if (corners < 3) {
-                others.add(luminance, 1.0);
+                others.add(luminance, surface.alpha);
                 continue;
             }
             const auto at = [&](std::size_t c) {
                 return to_double(transform_point(instance.world_from_object, mesh.positions[corner[c]]));
             };
             const double area = length(cross(at(1) - at(0), at(2) - at(0)));
-            if (area < 1e100) triangles.add(luminance, area);  // false for what is not a number
+            if (area < 1e100) triangles.add(luminance, area * surface.alpha);  // false for what is not a number
         }
         next -= std::min(next, count);
     });

@@ -5,9 +5,6 @@
 
 namespace halflit::raster {
 
-/// sRGB codes of the usual background, and of that behind dark surfaces.
-inline constexpr int kDarkBackground[] = {0x2c, 0x30, 0x36}, kLightBackground[] = {0xb4, 0xba, 0xc2};
-
 /// Mean luminance of what the scene's surfaces give back of white light, linear, by their base colours and areas. Of many triangles some
 /// stand for all. Lines and points count where there is no triangle; 0.5 if there is nothing.
 [[nodiscard]] double surface_luminance(const Scene& scene);

@@ -256,9 +256,17 @@ ViewSettings telling_view(const Scene& scene, const ViewSettings& view) {
     const std::vector<SurfaceSample> samples = surface_samples(scene, raster::framed_part(scene));
     if (samples.empty()) return view;
     SmallPicture picture(samples);
+    // From above, upright lines of what is tall run together.
+    constexpr double kTall = 2.0;
+    Bounds bounds;
+    for (const SurfaceSample& sample : samples)
+        for (const Vec3d& corner : sample.corners) bounds.add(to_float(corner));
+    const Vec3f side = bounds.max - bounds.min;
+    const bool is_tall = side.y > kTall * std::max(side.x, side.z);
     ViewSettings best = view;
     double most = 0.0;
     for (const Candidate& candidate : kCandidates) {
+        if (is_tall && candidate.rise_deg > 0.0f) continue;
         ViewSettings other = view;
         other.azimuth_deg += candidate.turn_deg;
         other.elevation_deg += candidate.rise_deg;

@@ -42,7 +42,7 @@ inline constexpr GridLobe kGridLobe = grid_lobe(kGridWayTangent);
 inline constexpr double kLeastGridTotal = kGridLobe.mean / 2.0;
 inline constexpr double kGridSlope = (1.0 + kGridLobe.linear + 2.0 * kGridLobe.square) / kLeastGridTotal;
 /// Share of the hidden light that other surfaces return.
-inline constexpr float kGridBounce = 0.3f;
+inline constexpr float kGridBounce = 0.4f;
 
 /// Point p = (z * size[1] + y) * size[0] + x of the lattice lies at origin + (x, y, z) / per_length. Bits 2 k and 2 k + 1 of masks[2 p + w]
 /// are the number of hidden ways about the direction kGridInWord w + k.

@@ -31,7 +31,7 @@ inline cli::RenderJob scene_job(Scene scene, int width, int height) {
 }
 
 /// A view by parallel rays that shows the whole scene.
-inline Camera parallel_view(const cli::RenderJob& job, float azimuth_deg, float elevation_deg, double margin = 0.08) {
+inline Camera parallel_view(const cli::RenderJob& job, float azimuth_deg, float elevation_deg, double margin = 0.13) {
     ViewSettings view{.azimuth_deg = azimuth_deg, .elevation_deg = elevation_deg, .orthographic = true};
     view.margin_x = view.margin_y = margin;
     return frame_scene(job.scene(), job.film.bounds, static_cast<float>(job.width) / static_cast<float>(job.height), view);

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <vector>
 
 using namespace halflit;
@@ -157,7 +159,37 @@ TEST_CASE("contact shadow: it is a black surface before the background, whatever
     CHECK(alone[3] == 0.0f);  // far from the model there is nothing
 }
 
-TEST_CASE("contact shadow: what stands has one, and what floats, leans out or is seen from below has none", "[raster][contact-shadow]") {
+TEST_CASE("contact shadow: on black there is none to see, through glass and tone curves too", "[raster][contact-shadow]") {
+    Scene scene = cube();
+    scene.materials.push_back(scene.materials[0]);
+    const bool transmits = GENERATE(false, true);
+    scene.materials[1].alpha_mode = transmits ? AlphaMode::opaque : AlphaMode::blend;
+    scene.materials[1].transmission = transmits ? 0.7f : 0.0f;
+    scene.materials[1].base_color = {0.9f, 0.8f, 0.7f, 0.5f};
+    scene.meshes.push_back(make_sphere(0.5f, 16, 16));
+    scene.meshes.back().material = 1;
+    scene.instances.push_back({1, translation({0.9f, 0.5f, 0.5f})});
+    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::reinhard, ToneCurve::aces, ToneCurve::neutral})
+        for (const int samples : {1, 4, 8}) {
+            const auto picture = [&](float opacity) {
+                Settings settings = shadowed(opacity);
+                settings.samples = samples;
+                settings.tone_curve = curve;
+                settings.exposure = 4.0f;
+                settings.background_linear = {0, 0, 0, 1};
+                std::vector<std::uint8_t> pixels(static_cast<std::size_t>(4 * kWidth * kHeight));
+                REQUIRE(render(scene, looking(kEye), settings, {.width = kWidth, .height = kHeight, .pixels = pixels.data()}));
+                return pixels;
+            };
+            CAPTURE(static_cast<int>(curve), samples, transmits);
+            const auto with = picture(1.0f), without = picture(0.0f);
+            int most = 0;
+            for (std::size_t i = 0; i < with.size(); ++i) most = std::max(most, std::abs(int{with[i]} - int{without[i]}));
+            CHECK(most <= 1);
+        }
+}
+
+TEST_CASE("contact shadow: what stands has one, and what leans out or is seen from below or by parallel rays has none", "[raster][contact-shadow]") {
     const Camera above = looking(kEye);
     CHECK(has_shadow(cube(), above, shadowed()));
     CHECK(has_shadow(
@@ -166,11 +198,17 @@ TEST_CASE("contact shadow: what stands has one, and what floats, leans out or is
     // A beam with a thin pin below one end.
     CHECK_FALSE(has_shadow(blocks({{{0, 1, 0}, {1, 0.1f, 0.1f}}, {{-0.95f, 0.5f, 0}, {0.02f, 0.5f, 0.02f}}}), above, shadowed()));
     CHECK_FALSE(has_shadow(cube(), looking({2, -1, 3}), shadowed()));
+    Camera parallel = above;
+    parallel.orthographic = true;
+    parallel.half_height = 2;
+    CHECK_FALSE(has_shadow(cube(), parallel, shadowed()));
     Settings off = shadowed();
     off.shadows = ShadowMode::off;
     CHECK_FALSE(has_shadow(cube(), above, off));
     Scene on_ground = cube();
     add_ground(on_ground, scene_bounds(on_ground));
+    CHECK_FALSE(has_shadow(on_ground, above, shadowed()));
+    on_ground.instances.back().color = {0.5f, 1, 1, 1};
     CHECK_FALSE(has_shadow(on_ground, above, shadowed()));
     CHECK_FALSE(has_shadow(Scene{}, above, shadowed()));
     Scene flat = cube();

@@ -105,8 +105,8 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
     for (const GivenView& view : flags.film.views) pair.view_names.push_back(view.name);
     pair.cameras = cameras_of(pair, outlines_of(pair.a.scene(), pair.b.scene()), flags);
 
-    // The same box and size of points for both.
-    flags.kept_view = kept_view(pair.cameras.front(), pair.bounds, pair.a.settings.point_size, pair.a.source.placement);
+    // The same box, size of points and background for both.
+    flags.kept_view = kept_view(pair.cameras.front(), pair.bounds, pair.a.settings, pair.a.source.placement);
     for (RenderJob* const job : {&pair.a, &pair.b})
         if (const auto changed = change_job(*job, flags, kCompareSize, false); !changed) return tl::unexpected(changed.error());
     pair.b.settings.exposure = pair.a.settings.exposure;

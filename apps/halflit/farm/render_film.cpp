@@ -260,6 +260,7 @@ private:
         drawn.planes->add_to(target);
         Settings settings = job_->settings;
         if (options_.film.animates()) settings.contact_shadow *= standing_share();
+        if (film_format_ == film::FilmFormat::gif && !is_opaque()) settings.contact_shadow = 0.0f;  // its pixels are opaque or not there
         const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, settings, target, job_->timed_execution());
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));

@@ -36,7 +36,7 @@ enum class CameraUse : std::uint8_t {
 
 /// Draws by the camera that another run reads from the list. It may differ from that of the framing in the last bits.
 Result<void> keep_view(RenderJob& job, RenderOptions& options) {
-    options.kept_view = kept_view(job.camera, job.film.bounds, job.settings.point_size, job.source.placement);
+    options.kept_view = kept_view(job.camera, job.film.bounds, job.settings, job.source.placement);
     return change_job(job, options, kRenderSize, false);
 }
 

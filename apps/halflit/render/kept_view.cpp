@@ -40,6 +40,7 @@ void each_key(View& view, const Visit& visit) {
     visit("far", std::vector{&view.far_z});
     if (!view.empty) point("low", view.low), point("high", view.high);
     visit("point_size", std::vector{&view.point_size});
+    point("background", view.background);
 }
 
 /// Distances of the box's nearest and farthest corner along the view axis.
@@ -55,7 +56,7 @@ std::pair<double, double> depths(const KeptView& view, Vec3d eye, const Bounds& 
 
 }  // namespace
 
-KeptView kept_view(const Camera& camera, const Bounds& bounds, float point_size, const Placement& placement) {
+KeptView kept_view(const Camera& camera, const Bounds& bounds, const Settings& settings, const Placement& placement) {
     const double unit = 1.0 / placement.scale;  // a power of two
     const auto out = [&](Vec3d p) { return p * unit + placement.origin; };
     const Mat4& m = camera.world_from_camera;
@@ -70,7 +71,9 @@ KeptView kept_view(const Camera& camera, const Bounds& bounds, float point_size,
     view.near_z = camera.near_z * unit, view.far_z = camera.far_z * unit;
     view.empty = bounds.empty;
     if (!bounds.empty) view.low = out(to_double(bounds.min)), view.high = out(to_double(bounds.max));
-    view.point_size = point_size;
+    view.point_size = settings.point_size;
+    const Vec4f& background = settings.background_linear;
+    view.background = {background.x, background.y, background.z};
     return view;
 }
 

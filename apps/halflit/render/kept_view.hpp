@@ -5,6 +5,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/error.hpp"
 #include "halflit/model.hpp"
+#include "halflit/settings.hpp"
 
 #include <string>
 #include <string_view>
@@ -20,11 +21,12 @@ struct KeptView {
     Vec3d low, high;        ///< corners of the scene's box: exposure and soft light are chosen by it
     bool empty = false;     ///< the scene had no box
     double point_size = 0;  ///< pixels
+    Vec3d background;       ///< linear; where no other is given
     friend bool operator==(const KeptView&, const KeptView&) = default;
 };
 
-/// The view that keeps this camera, which a framing has made. bounds: of the scene.
-[[nodiscard]] KeptView kept_view(const Camera& camera, const Bounds& bounds, float point_size, const Placement& placement);
+/// The view that keeps this camera, which a framing has made, and what was chosen of the settings. bounds: of the scene.
+[[nodiscard]] KeptView kept_view(const Camera& camera, const Bounds& bounds, const Settings& settings, const Placement& placement);
 
 /// The camera in the world that is drawn. Its near and far planes move where the scene's box, `bounds`, reaches beyond them.
 [[nodiscard]] Camera camera_of(const KeptView& view, const Placement& placement, const Bounds& bounds);
@@ -32,7 +34,7 @@ struct KeptView {
 /// The box that was kept, in the world that is drawn.
 [[nodiscard]] Bounds bounds_of(const KeptView& view, const Placement& placement);
 
-/// "eye=1,2,3 right=1,0,0 .. point_size=2": each number by the least digits that give it back.
+/// "eye=1,2,3 right=1,0,0 .. background=0,0,0": each number by the least digits that give it back.
 [[nodiscard]] std::string kept_view_text(const KeptView& view);
 /// Reads it back. Fails (bad_input) for a key that is unknown, missing or there twice, and for a number that is not finite.
 [[nodiscard]] Result<KeptView> parse_kept_view(std::string_view text);

@@ -306,7 +306,8 @@ FlagGroup surface_flags(RenderOptions& o) {
                       kMaxShininess),
           number(o.classic.exponent, 0.0f, kMaxShininess)},
          {"--crease", "DEG",
-          fmt::format("Models without normals that are not glTF: smooth across edges up to this angle between their triangles, 0 to 180 "
+          fmt::format("Models without normals that are not glTF: smooth across edges up to this angle between their triangles, 0 to 180, "
+                      "in noisy scans up to twice as much "
                       "(default {})",
                       o.load.crease_deg),
           number(o.load.crease_deg, 0.0f, 180.0f)}}};

@@ -32,11 +32,13 @@ namespace {
 /// Of normals that count as equal: the triangles of a flat polygon share a normal. An angle of 0.08 degrees.
 constexpr double kFlatCosine = 1.0 - 1e-6;
 
-/// Triangles of a surface from which on it may be a scan, whose facets bend everywhere: an edge there is sharp if it stands out from the
-/// others at its ends. Parts made by design have flat facets beside their edges, however dense they are.
-constexpr std::size_t kManyTriangles = 10000;
-constexpr double kStandsOut = 4.0;  ///< times the angle that three of four edges at a place have at least
-constexpr double kMostWidened = 2.0;
+/// A file of so many triangles is a scan if its edges bend a little nearly everywhere: few are flat, and most bend by less than a crease.
+/// Parts made by design have flat edges within their faces; knurls and other patterns have sharp ones everywhere.
+constexpr std::size_t kManyTriangles = 10000, kProbedPlaces = 4096;
+constexpr double kFlatBend = 1.0 * (kPi / 180), kUsualBend = 20.0 * (kPi / 180), kMostFlat = 0.05;
+/// An edge of a scan is sharp if it stands out from the others at its ends: from the angle that three of four of them have at least.
+constexpr double kStandsOut = 4.0, kMostWidened = 2.0;
+constexpr std::size_t kFewEdges = 5;  // of a place, below which none stands out
 
 constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
@@ -44,28 +46,24 @@ constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2
 class NormalMaker {
 public:
     /// normals: those that are made; the first one has the number `first`.
-    NormalMaker(Soup& soup, double crease_deg, std::vector<Vec3f>& normals, std::uint32_t first)
+    NormalMaker(Soup& soup, double crease_deg, bool is_scan, std::vector<Vec3f>& normals, std::uint32_t first)
         : soup_(soup),
           normals_(normals),
           first_(first),
           crease_rad_(crease_deg * (kPi / 180)),
           least_cosine_(sin_cos(crease_rad_).cos),
-          may_be_scan_(soup.position_of.size() >= 3 * kManyTriangles && crease_deg > 0) {}
+          is_scan_(is_scan) {}
+
+    /// Adds the angles between the triangles of the edges of a place.
+    void add_bends(std::span<const std::uint32_t> corners, std::vector<double>& bends) {
+        gather(corners);
+        each_bend([&](double sine, double cosine) { bends.push_back(angle_of(sine, cosine)); });
+    }
 
     void add_normals(std::span<const std::uint32_t> corners) {
         const auto has_normal = [&](std::uint32_t corner) { return soup_.normal_of[corner] != kNone; };
         if (std::all_of(corners.begin(), corners.end(), has_normal)) return;
-        wedges_.clear();
-        edges_.clear();
-        copies_.clear();
-        for (const std::uint32_t corner : corners) {
-            check_();
-            const std::uint32_t next = following(corner), last = following(next), number = static_cast<std::uint32_t>(wedges_.size());
-            const Vec3d here = at(corner), to_next = at(next) - here, to_last = at(last) - here;
-            wedges_.push_back({normal_of(corner / 3), angle_of(length(cross(to_next, to_last)), dot(to_next, to_last)), {}, number, kNone});
-            edges_.push_back({soup_.position_of[next], number, true});
-            edges_.push_back({soup_.position_of[last], number, false});
-        }
+        gather(corners);
         join_smooth_edges(corners);
         for (std::uint32_t i = 0; i < wedges_.size(); ++i) {
             if (!copies_.empty() && copies_[i].of != kNone) continue;
@@ -107,6 +105,37 @@ private:
         bool leaves;          ///< the triangle goes along it from here to there
     };
 
+    void gather(std::span<const std::uint32_t> corners) {
+        wedges_.clear();
+        edges_.clear();
+        copies_.clear();
+        for (const std::uint32_t corner : corners) {
+            check_();
+            const std::uint32_t next = following(corner), last = following(next), number = static_cast<std::uint32_t>(wedges_.size());
+            const Vec3d here = at(corner), to_next = at(next) - here, to_last = at(last) - here;
+            wedges_.push_back({normal_of(corner / 3), angle_of(length(cross(to_next, to_last)), dot(to_next, to_last)), {}, number, kNone});
+            edges_.push_back({soup_.position_of[next], number, true});
+            edges_.push_back({soup_.position_of[last], number, false});
+        }
+        std::sort(edges_.begin(), edges_.end(), [this](const Edge& a, const Edge& b) {
+            check_();
+            return std::tie(a.to, a.wedge) < std::tie(b.to, b.wedge);
+        });
+    }
+    [[nodiscard]] std::size_t end_of(std::size_t edge) const {
+        std::size_t end = edge + 1;
+        while (end < edges_.size() && edges_[end].to == edges_[edge].to) ++end;
+        return end;
+    }
+    /// Calls visit(sine, cosine) with the angle between the two triangles of each edge that has two.
+    template <class Visit>
+    void each_bend(const Visit& visit) const {
+        for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) {
+            if (end_of(i) != i + 2 || edges_[i].leaves == edges_[i + 1].leaves) continue;
+            const Vec3d &a = wedges_[edges_[i].wedge].normal, &b = wedges_[edges_[i + 1].wedge].normal;
+            if (a != Vec3d{} && b != Vec3d{}) visit(length(cross(a, b)), dot(a, b));
+        }
+    }
     [[nodiscard]] Vec3d at(std::size_t corner) const { return to_double(soup_.points[soup_.position_of[corner]]); }
     [[nodiscard]] Vec3d normal_of(std::size_t triangle) const {
         const Vec3d a = at(3 * triangle), normal = cross(at(3 * triangle + 1) - a, at(3 * triangle + 2) - a);
@@ -156,16 +185,7 @@ private:
         }
     }
     void join_smooth_edges(std::span<const std::uint32_t> corners) {
-        std::sort(edges_.begin(), edges_.end(), [this](const Edge& a, const Edge& b) {
-            check_();
-            return std::tie(a.to, a.wedge) < std::tie(b.to, b.wedge);
-        });
-        const auto end_of = [&](std::size_t i) {
-            std::size_t end = i + 1;
-            while (end < edges_.size() && edges_[end].to == edges_[i].to) ++end;
-            return end;
-        };
-        least_cosine_here_ = may_be_scan_ ? widened_cosine(end_of) : least_cosine_;
+        least_cosine_here_ = is_scan_ ? widened_cosine() : least_cosine_;
         const auto join_if_smooth = [&](const Edge& a, const Edge& b) {
             if (a.leaves != b.leaves && is_smooth(a.wedge, corners[a.wedge] / 3, b.wedge, corners[b.wedge] / 3)) join(a.wedge, b.wedge);
         };
@@ -179,17 +199,15 @@ private:
         find_copies(corners);
         for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) join_without_copies(i, end_of(i), join_if_smooth);
     }
-    /// Of the angle up to which edges at the place are smooth.
-    template <class EndOf>
-    double widened_cosine(const EndOf& end_of) {
-        cosines_.clear();
-        for (std::size_t i = 0; i < edges_.size(); i = end_of(i))
-            if (end_of(i) == i + 2) cosines_.push_back(dot(wedges_[edges_[i].wedge].normal, wedges_[edges_[i + 1].wedge].normal));
-        if (cosines_.empty()) return least_cosine_;
-        const auto third = cosines_.begin() + static_cast<std::ptrdiff_t>(3 * (cosines_.size() - 1) / 4);
-        std::nth_element(cosines_.begin(), third, cosines_.end());
-        const double cosine = std::clamp(*third, -1.0, 1.0), angle = kStandsOut * angle_of(std::sqrt(1.0 - cosine * cosine), cosine);
-        return sin_cos(std::clamp(angle, crease_rad_, std::max(crease_rad_, std::min(kMostWidened * crease_rad_, kPi)))).cos;
+    /// Cosine of the angle up to which edges at the place are smooth.
+    [[nodiscard]] double widened_cosine() {
+        bends_.clear();
+        each_bend([&](double sine, double cosine) { bends_.push_back(angle_of(sine, cosine)); });
+        if (bends_.size() < kFewEdges) return least_cosine_;
+        const auto quarter = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 4);
+        std::nth_element(bends_.begin(), quarter, bends_.end());
+        return sin_cos(std::clamp(kStandsOut * *quarter, crease_rad_, std::max(crease_rad_, std::min(kMostWidened * crease_rad_, kPi))))
+            .cos;
     }
     /// Joins the triangles of one edge, edges_[begin] to edges_[end - 1], if without copies there are two, or two with their backs.
     template <class Join>
@@ -221,15 +239,30 @@ private:
     std::vector<Vec3f>& normals_;
     std::uint32_t first_;
     double crease_rad_, least_cosine_;
-    bool may_be_scan_;
+    bool is_scan_;
     double least_cosine_here_ = 0;
-    std::vector<double> cosines_;
+    std::vector<double> bends_;
     std::vector<Wedge> wedges_;
     std::vector<Edge> edges_;
     std::vector<Copy> copies_;  ///< of the place's wedges; empty where no edge has copies
     std::vector<std::uint32_t> order_;
     TimeCheck check_;
 };
+
+bool is_scan(Soup& soup, const CornersOfPlaces& corners) {
+    if (soup.position_of.size() < 3 * kManyTriangles) return false;
+    std::vector<Vec3f> none;
+    NormalMaker probe(soup, 0.0, false, none, 0);
+    std::vector<double> bends;
+    const std::size_t step = corners.places() / kProbedPlaces + 1;
+    for (std::size_t place = 0; place < corners.places(); place += step)
+        probe.add_bends(corners.at(static_cast<std::uint32_t>(place)), bends);
+    if (bends.empty()) return false;
+    const auto flat = std::count_if(bends.begin(), bends.end(), [](double bend) { return bend < kFlatBend; });
+    const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+    std::nth_element(bends.begin(), middle, bends.end());
+    return static_cast<double>(flat) <= kMostFlat * static_cast<double>(bends.size()) && *middle < kUsualBend;
+}
 
 }  // namespace
 
@@ -238,8 +271,9 @@ void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double creas
     const std::size_t parts = parts_of(corners.places(), kPlacesAThread, threads);
     const auto first = static_cast<std::uint32_t>(soup.normals.size());
     std::vector<std::vector<Vec3f>> made(parts);
+    const bool scan = crease_deg > 0 && is_scan(soup, corners);
     in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-        NormalMaker maker(soup, crease_deg, made[part], first);
+        NormalMaker maker(soup, crease_deg, scan, made[part], first);
         for (std::size_t place = begin; place < end; ++place) maker.add_normals(corners.at(static_cast<std::uint32_t>(place)));
     });
     // One list of all, in the order of the places.

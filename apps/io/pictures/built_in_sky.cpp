@@ -3,6 +3,7 @@
 
 #include "sh/equirect.hpp"
 #include "sh/fp_environment.hpp"
+#include "sh/smoothstep.hpp"
 #include "sh/trig.hpp"
 
 namespace halflit {
@@ -12,12 +13,6 @@ constexpr int kSkyWidth = 512, kSkyHeight = 256;
 constexpr int kSamples = 8;  ///< per side of each pixel on or near the sun
 
 Vec3d mix(Vec3d a, Vec3d b, double t) { return a * (1.0 - t) + b * t; }
-
-/// Smooth step: 0 below 0, 1 above 1.
-double smooth(double t) {
-    const double x = t < 0 ? 0 : t > 1 ? 1 : t;
-    return x * x * (3.0 - 2.0 * x);
-}
 
 struct Sun {
     Vec3d direction;
@@ -44,8 +39,8 @@ Vec3d background(Vec3d d, const Sun& sun) {
     const double near_sun = 0.5 * (1.0 + dot(d, sun.direction)), near2 = near_sun * near_sun, near8 = (near2 * near2) * (near2 * near2);
     const Vec3d glow = Vec3d{0.5, 0.42, 0.3} * (near8 * near8);
     const Vec3d sky = mix(horizon, zenith, rise) + glow;
-    const Vec3d below = mix(haze * 0.5, ground, smooth(-4.0 * d.y));
-    return mix(below, sky, smooth(0.5 + 25.0 * d.y));
+    const Vec3d below = mix(haze * 0.5, ground, smoothstep(-4.0 * d.y));
+    return mix(below, sky, smoothstep(0.5 + 25.0 * d.y));
 }
 
 /// Mean radiance of a pixel. Only pixels on or near the sun take several samples.

@@ -68,7 +68,7 @@ struct ViewSettings {
     /// Far enough for every direction: the scene is seen from all sides at one distance and, by parallel rays, at one scale, with the
     /// middle of its box in the middle of the picture. Otherwise the view is as near as its own direction allows.
     bool any_side = false;
-    double margin_x = 0.08, margin_y = 0.08;  ///< shares of half the picture's width and height that stay free at each side, in [0, 0.9]
+    double margin_x = 0.13, margin_y = 0.13;  ///< shares of half the picture's width and height that stay free at each side, in [0, 0.9]
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
@@ -90,7 +90,7 @@ inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},  
 [[nodiscard]] HALFLIT_API Result<void> check_camera(const Camera& camera);
 
 /// Camera that sees all of `bounds` at the given aspect ratio, by default in a three-quarter view. In the tighter direction the
-/// eight corners leave a margin of 8 % of the half picture. zoom changes the field of view, not the position. Empty bounds are
+/// eight corners leave a margin of 13 % of the half picture. zoom changes the field of view, not the position. Empty bounds are
 /// framed as a unit cube at the origin, a point as a small box. Angles that are not finite count as 0, the zoom as 1, the field of view as
 /// 45 degrees.
 [[nodiscard]] HALFLIT_API Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view);

@@ -439,7 +439,7 @@ HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float asp
 /// A side that the whole scene is seen from. Defaults in parentheses.
 typedef struct halflit_view {
     size_t size;
-    double margin_x, margin_y;  ///< shares of half the picture's width and height that stay free at each side, 0 to 0.9 (0.08)
+    double margin_x, margin_y;  ///< shares of half the picture's width and height that stay free at each side, 0 to 0.9 (0.13)
     float azimuth_deg;          ///< around the vertical: 0 from the front (+z), positive from the right (35)
     float elevation_deg;        ///< above the horizon, -90 to 90 (20)
     float zoom;                 ///< 2 makes things twice as large (1)
@@ -606,7 +606,7 @@ typedef struct halflit_settings {
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap (0)
     float shadow_fade;
     /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024. 1
-    /// (auto): by a grid of at most 64 voxels on a side, which costs little; 3/10 of the light that is lost comes back from other
+    /// (auto): by a grid of at most 64 voxels on a side, which costs little; 2/5 of the light that is lost comes back from other
     /// surfaces. 0, or without shadows: they cast none. (0)
     int32_t sky_shadows;
     /// look-ups on the smooth surface given by the vertex normals, for coarse meshes (0)
@@ -665,7 +665,7 @@ typedef struct halflit_picture_request {
     int32_t add_lights;               ///< a scene without any light gets some (1)
     int32_t studio;                   ///< HALFLIT_STUDIO (for dark)
     int32_t any_side;                 ///< of a view of the whole scene, as the margins: see halflit_view (0)
-    double margin_x, margin_y;        ///< shares of half the picture that stay free, 0 to 0.9 (0.08)
+    double margin_x, margin_y;        ///< shares of half the picture that stay free, 0 to 0.9 (0.13)
     double exposure_compensation_ev;  ///< stops brighter than the exposure, given or chosen, -64 to 64 (0)
 } halflit_picture_request;
 HALFLIT_C_API int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
