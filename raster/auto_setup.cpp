@@ -175,13 +175,11 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     AutoSetup setup;
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
-    const bool of_scene = !options.camera && chosen != nullptr;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     const FramedView seen =
         chosen != nullptr ? FramedView{front_view(scene, options.view), *chosen} : choose_view(scene, bounds, aspect, options.view);
     setup.view = seen.view, setup.camera = seen.camera;
     setup.settings = usual_settings();
-    if (of_scene) setup.settings.contact_shadow = 0.0f;
     setup.settings.background_linear = raster::suited_background(scene);
     setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
     setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
@@ -210,10 +208,7 @@ Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, c
     options.frame = chosen == nullptr;
     if (chosen != nullptr) options.camera = *chosen;
     PictureChoice choice{auto_setup(scene, bounds, size.width, size.height, options), size, -1};
-    if (chosen != nullptr && !request.camera) {
-        choice.scene_camera = static_cast<int>(chosen - scene.cameras.data());
-        choice.settings.contact_shadow = 0.0f;
-    }
+    if (chosen != nullptr && !request.camera) choice.scene_camera = static_cast<int>(chosen - scene.cameras.data());
     return choice;
 }
 

@@ -967,7 +967,7 @@ static void test_views(void) {
     int i;
     for (i = 0; i < 3; ++i) {
         CHECK_OK(halflit_view_init(&views[i], sizeof views[i]));
-        CHECK(views[i].azimuth_deg == 35 && views[i].elevation_deg == 20 && views[i].zoom == 1 && views[i].margin_x == 0.08);
+        CHECK(views[i].azimuth_deg == 35 && views[i].elevation_deg == 20 && views[i].zoom == 1 && views[i].margin_x == 0.13);
         CHECK_OK(halflit_view_by_name(cube.scene, names[i], &views[i]));
         views[i].orthographic = 1;
         CHECK_OK(halflit_camera_init(&cameras[i], sizeof cameras[i]));

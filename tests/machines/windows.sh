@@ -8,7 +8,7 @@ portable=/halflit/cmake/portable
 apt-get update -qq
 apt-get install -y -qq --no-install-recommends cmake ninja-build ccache pkg-config g++ nasm dpkg-dev libxsimd-dev libexpected-dev \
     nlohmann-json3-dev libstb-dev libcli11-dev libtinygltf-dev catch2 g++-mingw-w64-x86-64-posix wine64 >/dev/null
-export WINEDEBUG=-all WINEPREFIX=/build/wine
+export WINEDEBUG=-all WINEPREFIX=/build/wine LC_ALL=C.UTF-8  # else files have ASCII names alone
 # One server for all programs: tests start hundreds, and wine's services take seconds to start. These keep the standard streams of the
 # program that started them, for whose end CMake would wait: so they are started here, without any.
 mkdir -p $WINEPREFIX

@@ -189,7 +189,8 @@ TEST_CASE("contact shadow: on black there is none to see, through glass and tone
         }
 }
 
-TEST_CASE("contact shadow: what stands has one, and what leans out or is seen from below or by parallel rays has none", "[raster][contact-shadow]") {
+TEST_CASE("contact shadow: what stands has one, and what leans out or is seen from below or by parallel rays has none",
+          "[raster][contact-shadow]") {
     const Camera above = looking(kEye);
     CHECK(has_shadow(cube(), above, shadowed()));
     CHECK(has_shadow(
