@@ -165,6 +165,46 @@ TEST_CASE("models: edges above the crease angle are sharp", "[io]") {
     }
 }
 
+TEST_CASE("models: noise of a scan is smooth beyond the crease angle, and dense patterns keep their edges", "[io]") {
+    const auto vertices_a_place = [](const Polyhedron& p, float crease_deg) {
+        LoadOptions options;
+        options.crease_deg = crease_deg;
+        const Mesh mesh = load_any_ok(stl_binary_of(p, ""), options).scene.meshes.at(0);
+        std::map<std::array<float, 3>, int> places;
+        for (const Vec3f& at : mesh.positions) ++places[{at.x, at.y, at.z}];
+        return static_cast<double>(mesh.positions.size()) / static_cast<double>(places.size());
+    };
+    const auto noisy = [](unsigned rings) {
+        Polyhedron p = sphere(rings);
+        std::uint32_t state = 1;
+        for (std::size_t i = 2 * rings; i + 2 * rings < p.points.size(); ++i) {  // but the poles, whose points are one place
+            state = state * 1664525u + 1013904223u;
+            p.points[i] = p.points[i] * static_cast<float>(1 + 0.6 / rings * (state / 4294967296.0 - 0.5));
+        }
+        return p;
+    };
+    // Its edges bend by up to some 50 degrees, half of them by less than 15.
+    CHECK(vertices_a_place(noisy(60), 30) < 1.1);   // 14,160 triangles
+    CHECK(vertices_a_place(noisy(40), 30) > 1.15);  // 6,240: might be made by design
+    // Pyramids, whose edges are all sharp.
+    const auto knurl = [](unsigned columns, unsigned rows) {
+        Polyhedron p;
+        for (unsigned y = 0; y <= rows; ++y)
+            for (unsigned x = 0; x <= columns; ++x) p.points.push_back({static_cast<float>(x), static_cast<float>(y), 0});
+        for (unsigned y = 0; y < rows; ++y)
+            for (unsigned x = 0; x < columns; ++x) {
+                const auto top = static_cast<unsigned>(p.points.size());
+                p.points.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.35f});
+                const unsigned a = y * (columns + 1) + x, b = a + 1, c = b + columns + 1, d = a + columns + 1;
+                for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}})
+                    p.triangles.push_back({from, to, top});
+            }
+        return p;
+    };
+    CHECK(vertices_a_place(knurl(60, 50), 30) == Approx(vertices_a_place(knurl(40, 30), 30)).epsilon(0.02));
+    CHECK(vertices_a_place(knurl(60, 50), 30) > 5);
+}
+
 TEST_CASE("models: smoothing groups of OBJ come before the crease angle", "[io]") {
     const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n", faces = "f 1 2 3 4\nf 2 5 6 3\n";
     CHECK(load_any_ok(to_bytes(points + faces)).scene.meshes.at(0).positions.size() == 8);

@@ -35,9 +35,9 @@ constexpr double kFlatCosine = 1.0 - 1e-6;
 /// A file of so many triangles is a scan if its edges bend a little nearly everywhere: few are flat, and most bend by less than a crease.
 /// Parts made by design have flat edges within their faces; knurls and other patterns have sharp ones everywhere.
 constexpr std::size_t kManyTriangles = 10000, kProbedPlaces = 4096;
-constexpr double kFlatBend = 1.0 * (kPi / 180), kUsualBend = 20.0 * (kPi / 180), kMostFlat = 0.05;
-/// An edge of a scan is sharp if it stands out from the others at its ends: from the angle that three of four of them have at least.
-constexpr double kStandsOut = 4.0, kMostWidened = 2.0;
+constexpr double kFlatBend = 1.0 * (kPi / 180), kUsualBend = 20.0 * (kPi / 180), kMostFlat = 0.2;
+/// An edge of a scan is sharp if it stands out from the others at its ends, by their median.
+constexpr double kStandsOut = 3.0, kMostWidened = 2.0;
 constexpr std::size_t kFewEdges = 5;  // of a place, below which none stands out
 
 constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
@@ -204,10 +204,9 @@ private:
         bends_.clear();
         each_bend([&](double sine, double cosine) { bends_.push_back(angle_of(sine, cosine)); });
         if (bends_.size() < kFewEdges) return least_cosine_;
-        const auto quarter = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 4);
-        std::nth_element(bends_.begin(), quarter, bends_.end());
-        return sin_cos(std::clamp(kStandsOut * *quarter, crease_rad_, std::max(crease_rad_, std::min(kMostWidened * crease_rad_, kPi))))
-            .cos;
+        const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
+        std::nth_element(bends_.begin(), middle, bends_.end());
+        return sin_cos(std::clamp(kStandsOut * *middle, crease_rad_, std::max(crease_rad_, std::min(kMostWidened * crease_rad_, kPi)))).cos;
     }
     /// Joins the triangles of one edge, edges_[begin] to edges_[end - 1], if without copies there are two, or two with their backs.
     template <class Join>

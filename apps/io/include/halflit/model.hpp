@@ -95,7 +95,7 @@ struct LoadOptions {
     /// and 3MF and y for the others.
     std::optional<UpAxis> up{};
     /// Other formats than glTF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at
-    /// most this, degrees in [0, 180]. In a scan the limit at a vertex is four times the lower quartile of its edges' angles, at most twice
+    /// most this, degrees in [0, 180]. In a scan the limit at a vertex is three times the median of its edges' angles, at most twice
     /// this. A scan has 10,000 triangles and more, few edges that are flat, and a median angle below 20 degrees.
     float crease_deg = 30.0f;
     /// Plate of a slicer's project (3MF), from 1; 0: all of them. A file without plates is drawn whole.
