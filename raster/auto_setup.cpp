@@ -1,5 +1,6 @@
 #include "halflit/auto_setup.hpp"
 
+#include "raster/completed_light.hpp"
 #include "raster/view/projection.hpp"
 #include "raster/view/suited_background.hpp"
 #include "sh/fp_environment.hpp"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 namespace halflit {
 namespace {
@@ -148,6 +150,13 @@ Result<const Camera*> find_camera(const std::vector<Camera>& cameras, const std:
 
 }  // namespace
 
+raster::CompletedLight raster::completed_light(const Scene& scene, const Bounds& bounds, const Camera& camera, const AutoOptions& options) {
+    const FpEnvironment environment_of_host;
+    CompletedLight out{options.light ? *options.light : static_cast<const Lighting&>(scene)};
+    out.exposure = complete(out.light, bounds, camera, options);
+    return out;
+}
+
 Settings usual_settings() {
     const FpEnvironment environment_of_host;
     Settings settings;
@@ -182,8 +191,8 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     setup.settings = usual_settings();
     setup.settings.background_linear = raster::suited_background(scene);
     setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
-    setup.light = options.light ? *options.light : static_cast<const Lighting&>(scene);
-    const float exposure = complete(setup.light, bounds, setup.camera, options);
+    auto [light, exposure] = raster::completed_light(scene, bounds, setup.camera, options);
+    setup.light = std::move(light);
     setup.settings.exposure = options.exposure.value_or(exposure) * exposure_factor(options.exposure_compensation_ev);
     // A file whose lights are thousands of lux has an exposure for these, which would hide what glows. Viewers of the field show emission
     // as it would be at the exposure 1; so it is at least as bright as there.

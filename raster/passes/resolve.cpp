@@ -50,10 +50,13 @@ void PictureTile::clear() {
         if (toned_) scratch_.backing.reserve(static_cast<std::size_t>(samples_) * kTilePixels);
         return;
     }
+    fill_backing(1.0f);
+    if (background_varies()) {
+        fill_samples();
+        return;
+    }
     const Vec4f back = background_sample();
     for (int i = 0; i < samples_ * kTilePixels; ++i) std::memcpy(color + 4 * i, &back, sizeof back);
-    fill_backing(1.0f);
-    if (background_varies()) fill_samples();
 }
 
 void PictureTile::write(const FragmentList& list, const shading::FragmentBlock& block) {

@@ -105,37 +105,41 @@ void each_column(const FilledVoxels& voxels, int first, int end, const Visit& vi
     }
 }
 
+/// A rectangle around columns, voxels along x and z; empty while low > high.
+struct GroundBox {
+    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+    void add(int x, int z) {
+        const int at[2] = {x, z};
+        for (const int k : {0, 1}) low[k] = std::min(low[k], static_cast<double>(at[k])), high[k] = std::max(high[k], at[k] + 1.0);
+    }
+    [[nodiscard]] double width() const { return std::max(high[0] - low[0], high[1] - low[1]); }
+};
+
 /// Where a scene stands: all that lies a little above its lowest point.
 struct Foot {
-    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};  ///< voxels along x and z; empty while low > high
-    double standing = 0;                                 ///< 1: the middle of the scene lies above it, and it is not narrow; down to 0
+    GroundBox box;
+    double standing = 0;  ///< 1: the middle of the scene lies above it, and it is not narrow; down to 0
 };
 
 Foot foot_of(const FilledVoxels& voxels, double ground) {
-    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9}, sum[2] = {0, 0}, count = 0;
+    GroundBox all;
+    double sum[2] = {0, 0}, count = 0;
     int top = 0;
     for (int y = 0; y < voxels.size[1]; ++y)
         each_column(voxels, y, y + 1, [&](int x, int z) {
-            const int at[2] = {x, z};
-            for (const int k : {0, 1})
-                low[k] = std::min(low[k], at[k] + 0.0), high[k] = std::max(high[k], at[k] + 1.0), sum[k] += at[k] + 0.5;
-            count += 1.0, top = y + 1;
+            all.add(x, z);
+            sum[0] += x + 0.5, sum[1] += z + 0.5, count += 1.0, top = y + 1;
         });
     Foot foot;
     const double reach = std::max(1.0, kFoot * (top - ground));
-    each_column(voxels, static_cast<int>(ground), static_cast<int>(ground + reach) + 1, [&](int x, int z) {
-        const int at[2] = {x, z};
-        for (const int k : {0, 1}) foot.low[k] = std::min(foot.low[k], at[k] + 0.0), foot.high[k] = std::max(foot.high[k], at[k] + 1.0);
-    });
-    if (foot.low[0] > foot.high[0]) return foot;
-    const auto width_of = [](const double(&from)[2], const double(&to)[2]) { return std::max(to[0] - from[0], to[1] - from[1]); };
-    const double width = width_of(low, high);
+    each_column(voxels, static_cast<int>(ground), static_cast<int>(ground + reach) + 1, [&](int x, int z) { foot.box.add(x, z); });
+    if (foot.box.low[0] > foot.box.high[0]) return foot;
     double beside = 0.0;
     for (const int k : {0, 1}) {
         const double middle = sum[k] / count;
-        beside = std::max(beside, std::max(foot.low[k] - middle, middle - foot.high[k]) / width);
+        beside = std::max(beside, std::max(foot.box.low[k] - middle, middle - foot.box.high[k]) / all.width());
     }
-    const double broad = smoothstep(width_of(foot.low, foot.high) / (kNarrow * width));
+    const double broad = smoothstep(foot.box.width() / (kNarrow * all.width()));
     foot.standing = (1.0 - smoothstep(beside / kUnstable)) * (kPalest + (1.0 - kPalest) * broad);
     return foot;
 }
@@ -160,7 +164,7 @@ ContactMap map_of(const FilledVoxels& voxels) {
     blur(map.hidden, 1), blur(map.hidden, kSide);
     const auto beside_foot = [&](int cell, int axis) {
         const double at = (cell - first[axis] + 0.5) * kCellVoxels;
-        return std::max({0.0, foot.low[axis] - at, at - foot.high[axis]});
+        return std::max({0.0, foot.box.low[axis] - at, at - foot.box.high[axis]});
     };
     const double reach = kReach * (std::max({voxels.size[0], voxels.size[1], voxels.size[2]}) - 2 * kFreeVoxels);
     float* out = map.hidden.data();

@@ -140,7 +140,6 @@ void fill_voxels(const PreparedData& scene, FilledVoxels& voxels) {
     SceneRevision revision = scene.revision();
     revision.lights = 0;
     if (voxels.revision == revision) return;
-    voxels.revision.reset();  // until it is made, as the time may end before
     voxels = filled_voxels(scene);
     voxels.revision = revision;
 }

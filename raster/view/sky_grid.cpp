@@ -163,7 +163,6 @@ SkyGrid grid_of(const FilledVoxels& voxels) {
 
 void make_sky_grid(const FilledVoxels& voxels, SkyGrid& grid) {
     if (grid.revision == voxels.revision) return;
-    grid.revision.reset();  // until it is made, as the time may end before
     grid = grid_of(voxels);
     grid.revision = voxels.revision;
 }

@@ -157,6 +157,7 @@ private:
         for (Image& picture : pictures_) picture = make_image(*job_, floats);
         for (std::size_t i = 0; i < pictures_.size(); ++i) planes_.emplace_back(options_.aovs, *job_);
         if (!film_format_) return {};
+        if (*film_format_ == film::FilmFormat::gif && !is_opaque()) job_->settings.contact_shadow = 0.0f;  // pixels are opaque or not there
         auto writer = film::make_film_writer(*film_format_, {pictures_[0].width, pictures_[0].height, range_.count(),
                                                              options_.film.frame_time(), is_opaque(), options_.film.dither});
         if (!writer) return fail(writer.error().code, options_.output + ": " + writer.error().message);
@@ -260,7 +261,6 @@ private:
         drawn.planes->add_to(target);
         Settings settings = job_->settings;
         if (options_.film.animates()) settings.contact_shadow *= standing_share();
-        if (film_format_ == film::FilmFormat::gif && !is_opaque()) settings.contact_shadow = 0.0f;  // its pixels are opaque or not there
         const auto rendered = renderer_.render(*job_->prepared, job_->light, camera, settings, target, job_->timed_execution());
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));

@@ -15,6 +15,7 @@
 #include "halflit/image.hpp"
 #include "halflit/scene.hpp"
 #include "raster/check_execution.hpp"
+#include "raster/completed_light.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -458,10 +459,7 @@ bool relight(RenderJob& job, const Camera& camera) {
     const Film& film = job.film;
     Lighting& drawn = job.light;
     if (drawn.environment == film.choice.light->environment && drawn.lights.size() == film.choice.light->lights.size()) return false;
-    AutoOptions choice = film.choice;
-    choice.camera = camera;
-    choice.frame = false;
-    const Lighting lit = auto_setup(job.scene(), film.bounds, job.width, job.height, choice).light;
+    const Lighting lit = raster::completed_light(job.scene(), film.bounds, camera, film.choice).light;
     drawn.ambient = lit.ambient;
     drawn.environment = lit.environment;
     for (std::size_t i = film.choice.light->lights.size(); i < lit.lights.size() && i < drawn.lights.size(); ++i) {
