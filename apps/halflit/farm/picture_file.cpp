@@ -26,7 +26,8 @@ namespace {
 void warn_of_lost_transparency(const PictureOptions& options, OutputFormat format) {
     const bool transparent = options.background_linear && options.background_linear->w < 1.0f;
     if (transparent && (format == OutputFormat::jpg || format == OutputFormat::hdr || format == OutputFormat::pfm))
-        print_warning(options.output + ": this format has no transparency; the picture is shown over black (.png .bmp .tga .exr keep it)");
+        print_warning(options.output +
+                      ": this format has no transparency; the picture is shown over black (.png .webp .bmp .tga .exr keep it)");
 }
 
 /// Shows the progress of a drawing that takes longer than half a second, unless it is one of many.
