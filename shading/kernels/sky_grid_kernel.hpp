@@ -16,14 +16,17 @@ struct GridPoint {
     I masks[2][8];
     F weights[8];
     F weight;  ///< their sum; 0: nothing is hidden
+    F fade;    ///< factor on hidden shares
 };
 
 /// `normal`: of the surface, unit.
 HALFLIT_INLINE GridPoint grid_point(const shading::SkyGridPlan& grid, V3 position, V3 normal) {
     const F scale(grid.per_length), one(1.0f), none(0.0f), offset(shading::kGridOffset);
+    F border(shading::kGridFade);
     const auto along = [&](F p, F n, int axis, F& first, F& part, F& below) __attribute__((always_inline)) {
         const F place = (p - F(grid.origin[axis])) * scale, at = mad(n, offset, place);
         const F last(static_cast<float>(grid.size[axis] - 1));
+        border = vmin(border, vmin(place, last - place));
         const M in = (at >= none) & (at < last);
         const F held = sel(in, at, none);
         first = vfloor(held);
@@ -59,6 +62,7 @@ HALFLIT_INLINE GridPoint grid_point(const shading::SkyGridPlan& grid, V3 positio
         sum = sum + weight;
     }
     out.weight = sel(inside, sum, none);
+    out.fade = vmax(border, none) * F(1.0f / shading::kGridFade);
     return out;
 }
 
@@ -77,7 +81,7 @@ inline constexpr float kLeastGridWeight = 1e-3f;
 
 /// Share in [0, 1] of the light from a direction that is hidden.
 HALFLIT_INLINE F hidden_share(const GridPoint& at, int direction) {
-    const F share = vdiv(hidden_weight(at, direction), vmax(at.weight, F(kLeastGridWeight)));
+    const F share = vdiv(hidden_weight(at, direction), vmax(at.weight, F(kLeastGridWeight))) * at.fade;
     return sel(at.weight > F(kLeastGridWeight), share, F(0.0f));
 }
 
@@ -108,7 +112,7 @@ HALFLIT_INLINE F seen_in_grid(const shading::ShadingPlan& frame, V3 position, V3
     const F squares = (F(t[4]) * normal.x * normal.x + F(t[5]) * normal.y * normal.y) + F(t[6]) * normal.z * normal.z;
     const F mixed = (F(t[7]) * normal.x * normal.y + F(t[8]) * normal.x * normal.z) + F(t[9]) * normal.y * normal.z;
     const F total = vmax(linear + (squares + mixed), F(grid.least_total));
-    const F share = vmin(vdiv(hidden, vmax(at.weight, F(kLeastGridWeight)) * total), F(1.0f));
+    const F share = vmin(vdiv(hidden * at.fade, vmax(at.weight, F(kLeastGridWeight)) * total), F(1.0f));
     return F(1.0f) - sel(at.weight > F(kLeastGridWeight), share, none) * F(1.0f - shading::kGridBounce);
 }
 

@@ -254,6 +254,26 @@ TEST_CASE("sky shadows: the light of rays in 4,096 directions, within five codes
     }
 }
 
+TEST_CASE("sky shadows: what the grid hides on a wide floor fades before its border", "[raster][sky-shadows]") {
+    Model model = of_boxes("two boxes on a floor", uneven_sky(), {{{-2, 0, -0.3}, {-1.4, 2, 0.3}}, {{1.4, 0, -0.3}, {2, 2, 0.3}}},
+                           looking({0, 9, 0.01f}, {0, 0, 0}));
+    add_ground(model.scene, scene_bounds(model.scene));
+    const std::vector<float> picture = draw(model, kSkyShadowsAuto);
+    const auto is_floor = [](const float* pixel) { return pixel[1] == 0.0f; };  // a catcher of shadows is black
+    double at_border = 0, shadowed = 0;
+    for (int y = 1; y < kHeight; ++y)
+        for (int x = 1; x < kWidth; ++x) {
+            const float* const here = &picture[static_cast<std::size_t>(4 * (y * kWidth + x))];
+            shadowed += is_floor(here) && here[3] > 0.02f;
+            for (const float* const before : {here - 4, here - 4 * kWidth})
+                if (is_floor(here) && is_floor(before) && (here[3] == 0.0f || before[3] == 0.0f))
+                    at_border = std::max(at_border, double{std::max(here[3], before[3])});
+        }
+    CAPTURE(shadowed, at_border);
+    CHECK(shadowed > 200);
+    CHECK(at_border < 0.1);
+}
+
 TEST_CASE("sky shadows: what nothing hides keeps its bits", "[raster][sky-shadows]") {
     Model model{"a plane", white_scene(uneven_sky()), looking({1, 2, 3}, {0, 0, 0}), {}};
     add(model.scene, make_plane(1.0f, 8), {0, 0, 0});
