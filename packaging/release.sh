@@ -42,28 +42,62 @@ mkdir -p "$1"
 folder=$(realpath "$1")
 [ ! -e "$folder/SHA256SUMS" ] || (cd "$folder" && cut -c67- SHA256SUMS | xargs -rd '\n' rm -f && rm SHA256SUMS)
 [ -z "$(ls -A "$folder")" ] || fail "$folder: expected an empty folder, found other files"
-start=$(mktemp)
-trap 'rm -f "$start"' EXIT
+work=$(mktemp -d) start=$work/start
+touch "$start"
+trap 'rm -rf "$work"' EXIT
 
 make_source() {
     git -C "$root" archive --format=tar --prefix="halflit-$version/" HEAD | gzip -9n >"$folder/halflit-$version.tar.gz"
 }
 
-# The packages that ./dev package makes, by each way that this machine has the tools for.
+# works COMMAND...: fails where the packaged program does not draw what the hashes say.
+works() {
+    "$@" --self-test >&2 || fail "$*: a packaged program fails its self-test"
+}
+
+# unpacked SYSTEM-PROCESSOR: the folder of a package of it.
+unpacked() {
+    local package=halflit-$version-$1 archives=$root/build/packages
+    if [ ! -d "$work/$package" ]; then
+        if [ -e "$archives/$package.zip" ]; then
+            python3 -m zipfile -e "$archives/$package.zip" "$work"
+        else
+            tar -C "$work" -xf "$archives/$package.tar.gz"
+        fi
+    fi
+    echo "$work/$package"
+}
+
+make_image() {
+    "$here/image/oci.sh" "$(unpacked "linux-$(uname -m)")/halflit" "$work/image" "$version" >&2
+    tar -C "$work/image" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -cf "$folder/halflit-$version-image-$(uname -m).tar" .
+}
+
+make_debian_source() {
+    "$here/source_package.sh" "$work/debian" "$folder/halflit-$version.tar.gz" >&2
+    find "$work/debian" -maxdepth 1 -type f -exec cp -t "$folder" {} +
+}
+
+# All packages of ./dev package, but for the wheel of this system: a portable one is for it, too.
 make_packages() {
-    local way help
-    help=$("$root/dev" package --help)
+    local arch
     step package "$root/dev" package >&2
-    step wheel "$root/dev" package --python >&2
-    if command -v npm >/dev/null && command -v emcc >/dev/null; then
+    for arch in amd64 arm64; do step "portable, $arch" "$root/dev" package --portable "$arch" >&2; done
+    step windows "$root/dev" package --windows >&2
+    if command -v npm >/dev/null; then
         step npm "$root/dev" package --npm >&2
     else
-        echo "release: no npm or Emscripten: the package for npm is left out" >&2
+        echo "release: no npm: the package for npm is left out" >&2
     fi
-    if [[ $help = *--portable* ]]; then step portable "$root/dev" package --portable >&2; fi
+    step image make_image
+    step "Debian's source package" make_debian_source
     find "$root/build/packages" -maxdepth 1 -type f -newer "$start" -name "*halflit*" -exec cp -t "$folder" {} +
-    # The program that was packaged draws what the hashes say.
-    "$root/build/install/bin/halflit" --self-test >&2
+    works "$root/build/install/bin/halflit"
+    if [ "$(uname -m)" = x86_64 ]; then
+        works "$(unpacked linux-x86_64)/halflit"
+        works qemu-aarch64 "$(unpacked linux-aarch64)/halflit"
+        PATH=$PATH:/usr/lib/wine WINEDEBUG=-all WINEPREFIX=$work/wine works wine64 "$(unpacked windows-x86_64)/halflit.exe"
+    fi
 }
 
 step source make_source
