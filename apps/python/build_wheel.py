@@ -12,9 +12,11 @@ through ctypes and knows nothing of Python's or numpy's binary interface.
 
 The wheel brings the libraries that halflit needs beside it, renamed by their content so that another package's copy of the same library
 does not take their place, and with their licences. glibc and the C++ library stay those of the system, as PEP 600 asks: two C++ libraries
-in one process do not go together, unless one is linked statically and shows no names.
+in one process do not go together, unless one is linked statically and shows no names. A library that is linked so is for musl too, whose
+loader takes glibc's names of files for itself, if musl has all functions that it needs: a musl of this machine tells.
 """
 import base64
+import glob
 import gzip
 import hashlib
 import io
@@ -122,18 +124,38 @@ def bundle(library, folder):
             output("patchelf", "--set-soname", os.path.basename(path), path)
         for name in sorted(wanted & set(renamed)):
             output("patchelf", "--replace-needed", name, renamed[name], path)
+        for name in sorted(wanted):  # glibc's loader, which is there without being asked for; musl has another one
+            if name.startswith("ld-linux"):
+                output("patchelf", "--remove-needed", name, path)
         output("patchelf", "--set-rpath", "$ORIGIN", path)
     return paths, libraries
 
 
+def functions(path, kind):
+    """Names of a library's dynamic symbols. kind: --defined-only or --undefined-only; those that may be absent are left out."""
+    found = re.findall(r"(\w) (\S+)$", output("nm", "-D", kind, path), re.M)
+    return {name.partition("@")[0] for letter, name in found if letter not in "wv" or kind == "--defined-only"}
+
+
+def musl_tag(paths):
+    """musllinux_1_2 with a dot before it, if musl has all that the files need; else nothing."""
+    there = glob.glob("/lib/ld-musl-*.so.1")
+    text = "".join(output("readelf", "-d", path) for path in paths)
+    if not there or not all(re.match(r"lib(c|m|dl|pthread|rt)\.so", name) for name in re.findall(r"\(NEEDED\).*\[(.*)\]", text)):
+        return ""
+    wanted = set().union(*(functions(path, "--undefined-only") for path in paths))
+    return "" if wanted - functions(there[0], "--defined-only") else f".musllinux_1_2_{machine(paths[0])}"
+
+
 def platform_tag(paths):
-    """manylinux_2_X of the oldest glibc that all files can be loaded with: by the versions of its symbols, and of the C++ library's."""
+    """manylinux_2_X of the oldest glibc that all files can be loaded with: by the versions of its symbols, and of the C++ library's; and
+    that of musl where they can be loaded with it."""
     text = "".join(output("readelf", "-V", path) for path in paths)
     glibc = max(int(minor) for minor in re.findall(r"Name: GLIBC_2\.(\d+)", text))
     glibcxx = max([0, *(int(minor) for minor in re.findall(r"Name: GLIBCXX_3\.4\.(\d+)", text))])
     for minor, newest in GLIBCXX_OF_GLIBC:
         if newest >= glibcxx:
-            return f"manylinux_2_{max(minor, glibc)}_{machine(paths[0])}"
+            return f"manylinux_2_{max(minor, glibc)}_{machine(paths[0])}{musl_tag(paths)}"
     return f"linux_{machine(paths[0])}"
 
 
@@ -172,7 +194,7 @@ def make(library, folder, licences_folder=None):
             paths, libraries, tag = bundle_for_windows(library, scratch), {}, "py3-none-win_amd64"
         else:
             paths, libraries = bundle(library, scratch)
-            tag = "py3-none-" + platform_tag(paths)
+            tag = "py3-none-" + platform_tag(paths)  # several, with dots between them
         for path in paths:
             with open(path, "rb") as file:
                 files["halflit/lib/" + os.path.basename(path)] = file.read()
@@ -186,7 +208,9 @@ def make(library, folder, licences_folder=None):
     with open(os.path.join(ROOT, "LICENSE"), "rb") as file:
         files[info + "licenses/LICENSE"] = file.read()
     files[info + "METADATA"] = metadata().encode()
-    files[info + "WHEEL"] = f"Wheel-Version: 1.0\nGenerator: halflit\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
+    start, _, platforms = tag.rpartition("-")
+    tags = "".join(f"Tag: {start}-{one}\n" for one in platforms.split("."))
+    files[info + "WHEEL"] = f"Wheel-Version: 1.0\nGenerator: halflit\nRoot-Is-Purelib: false\n{tags}".encode()
     name = f"halflit-{version()}-{tag}.whl"
     record = []
     os.makedirs(folder, exist_ok=True)

@@ -7,7 +7,7 @@ set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 arch=$1 folder=$2
 suite=bullseye
-[ ! -e "$folder/.whole" ] || exit 0
+if [ -e "$folder/.whole" ] && [ -z "$(find "$here" -type f -newer "$folder/.whole")" ]; then exit 0; fi
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 'Label: Debian' | head -n 1)
 [ -n "$mirror" ] || {
     echo "sysroot.sh: an old C library needs an archive of Debian: apt here has none (apt-get update)" >&2
@@ -46,6 +46,11 @@ object newer_glibc
 for archive in libc.a libc_nonshared.a; do "$triplet-ar" rs "$libraries/$archive" "$work/newer_glibc.o" 2>/dev/null; done
 object older_names
 "$triplet-ar" rcs "$libraries/libm_nonshared.a" "$work/older_names.o"
-rm "$libraries/libm.so"
-echo "GROUP ( /usr/lib/$triplet/libm_nonshared.a /lib/$triplet/libm.so.6 )" >"$libraries/libm.so"
+object musl_names
+"$triplet-ar" rcs "$libraries/libpthread_nonshared.a" "$work/musl_names.o"
+for library in libm.so.6 libpthread.so.0; do
+    name=${library%%.*}
+    rm "$libraries/$name.so"
+    echo "GROUP ( /usr/lib/$triplet/${name}_nonshared.a /lib/$triplet/$library )" >"$libraries/$name.so"
+done
 touch "$folder/.whole"

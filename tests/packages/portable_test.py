@@ -5,6 +5,7 @@ PACKAGES: their folder; PROGRAM: halflit, whose pictures are the expected ones; 
 import glob
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -13,6 +14,11 @@ import tarfile
 import tempfile
 import unittest
 import zipfile
+
+APPS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "apps")
+GALLERY, INCLUDE = os.path.join(APPS, "examples", "gallery"), os.path.join(APPS, "c", "include")
+sys.path.insert(0, GALLERY)
+import picture_hash  # noqa: E402
 
 OLDEST_GLIBC = 25
 MOST_BYTES = 17_000_000
@@ -25,6 +31,14 @@ SCENES = (
     ("lights:16", "--size", "96x54", "--lobe", "valve"),
     ("/knot.glb", "--size", "120x90", "--env", "studio", "--samples", "4"),
 )
+MISSING = """
+#include <halflit/halflit.h>
+#include <stdio.h>
+int main(void) {
+    halflit_scene* scene;
+    return halflit_scene_load("x.stl", NULL, &scene) == 0 || printf("%s", halflit_last_error()) < 0;
+}
+"""
 
 
 def output(*command, **options):
@@ -93,7 +107,7 @@ class Packages(unittest.TestCase):
     def test_a_wheel_needs_an_old_glibc_alone(self):
         found = 0
         for wheel in glob.glob(os.path.join(PACKAGES, "*.whl")):
-            minor = int(re.search(r"manylinux_2_(\d+)_", wheel).group(1))
+            minor = int(re.search(r"manylinux_2_(\d+)_|$", wheel).group(1) or 99)
             if minor > OLDEST_GLIBC:
                 continue  # of ./dev package --python
             found += 1
@@ -109,6 +123,28 @@ class Packages(unittest.TestCase):
                 brought = {os.path.splitext(os.path.basename(name))[0] for name in archive.namelist() if "/licenses/" in name}
                 self.assertEqual(set(LINKED) - brought, set())
         self.assertGreater(found, 0)
+
+    def test_a_wheel_draws_the_same_pixels_by_musl(self):
+        wheels = glob.glob(os.path.join(PACKAGES, f"*musllinux_1_2_{os.uname().machine}.whl"))
+        if not wheels or not shutil.which("musl-gcc"):
+            self.skipTest("no wheel for musl, or no musl-gcc")
+        with zipfile.ZipFile(wheels[0]) as archive:
+            (library,) = [archive.extract(name, self.folder) for name in archive.namelist() if ".so" in name]
+        program = os.path.join(self.folder, "program")
+
+        def run_source(script):
+            output("musl-gcc", "-I", INCLUDE, script, library, "-Wl,-rpath," + os.path.dirname(library), "-o", program)
+            self.assertIn("ld-musl", output("readelf", "-l", program))
+            return output(program, cwd=self.folder)
+
+        run_source(os.path.join(GALLERY, "spiral.c"))
+        with open(os.path.join(GALLERY, "table.txt"), encoding="utf-8") as table:
+            (expected,) = [row.split()[2] for row in table if row.startswith("spiral.c ")]
+        self.assertEqual(picture_hash.of_file(pathlib.Path(self.folder, "spiral.png")), expected)
+        source = os.path.join(self.folder, "missing.c")
+        with open(source, "w", encoding="utf-8") as file:
+            file.write(MISSING)
+        self.assertEqual(run_source(source), "x.stl: cannot be opened: No such file or directory")
 
 
 if __name__ == "__main__":
