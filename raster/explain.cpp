@@ -26,7 +26,7 @@ double brightest(const Rgb3& c) { return std::max({c[0], c[1], c[2]}); }
 
 Rgb3 difference(const Rgb3& a, const Rgb3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Codes before they are rounded.
+/// Codes before they are rounded. A background colour has no tone curve.
 Rgb3 codes_of(ToneCurve curve, const Rgb3& linear) {
     const Vec3d shown = shading::reference::toned(curve, {linear[0], linear[1], linear[2]});
     return {shading::reference::srgb_code(shown.x), shading::reference::srgb_code(shown.y), shading::reference::srgb_code(shown.z)};
@@ -193,8 +193,10 @@ private:
             story_.no_reference = reference.error().message;
             return;
         }
-        story_.reference_codes = codes_of(settings_.tone_curve, reference->linear);
-        const Rgb3 error = difference(codes_of(settings_.tone_curve, story_.linear), story_.reference_codes);
+        const bool colour = story_.shows == PixelShows::background && story_.coverage == 0.0 && !settings_.background_environment;
+        const ToneCurve curve = colour ? ToneCurve::none : settings_.tone_curve;
+        story_.reference_codes = codes_of(curve, reference->linear);
+        const Rgb3 error = difference(codes_of(curve, story_.linear), story_.reference_codes);
         for (std::size_t i = 0; i < 3; ++i) story_.error_codes[i] = absolute(error[i]);
     }
 
@@ -253,6 +255,7 @@ private:
         const auto before_black = draw(light_, settings, true);
         if (!before_black) return tl::unexpected(before_black.error());
         story_.background = difference(whole, before_black->linear);
+        if (story_.shows == PixelShows::background && story_.coverage == 0.0) story_.contact_shadow = before_black->alpha;
         settings.shading.max_error_codes = 0.0;
         Lighting around = light_;
         around.lights.clear(), around.suns = false;

@@ -195,6 +195,31 @@ TEST_CASE("explain: a pixel without a surface tells its layers and its backgroun
     CHECK(story_of(scene, camera_flat(), settings, kSize, 10, 20).background_kind == BackgroundKind::transparent);
 }
 
+TEST_CASE("explain: the background has its own codes, without a tone curve, and names the shadow on it", "[raster][explain]") {
+    Scene scene;
+    const Mesh box = make_box({0.5f, 0.5f, 0.5f});
+    scene.materials = {clay()};
+    scene.meshes = {box};
+    scene.meshes[0].material = 0;
+    scene.instances = {{0, translation({0, 0.5f, 0})}};
+    Settings settings;
+    settings.tone_curve = ToneCurve::neutral;
+    settings.contact_shadow = 0.85f;
+    settings.background_linear = {0.25f, 0.5f, 1, 1};
+    int shadowed = 0, open = 0;
+    for (int y = 0; y < kSize.height; ++y) {
+        const PixelStory story = story_of(scene, camera_at({0, 3, 3}, {0, 0.5f, 0}, 0.9f), settings, kSize, 32, y);
+        if (story.shows != PixelShows::background || story.coverage > 0.0) continue;
+        (story.contact_shadow > 0.0 ? shadowed : open) += 1;
+        for (std::size_t c = 0; c < 3; ++c) {
+            CHECK(story.reference_codes[c] == Approx(double(story.codes[c])).margin(0.51));
+            CHECK(story.background[c] == Approx(double((&settings.background_linear.x)[c]) * (1 - story.contact_shadow)).margin(1e-6));
+        }
+    }
+    CHECK(shadowed > 2);
+    CHECK(open > 2);
+}
+
 TEST_CASE("explain: a hole of a mask is neither a surface nor in a light's way", "[raster][explain]") {
     // Texels of the left half are holes.
     std::vector<std::uint8_t> texels;

@@ -99,6 +99,7 @@ Json story_json(const PixelStory& story, const NameOfInstance& name) {
     Json pixel{{"at", {story.x, story.y}}, {"codes", story.codes}};
     pixel["shows"] = shows_name(story.shows);
     pixel["background_kind"] = background_name(story.background_kind);
+    pixel["contact_shadow"] = story.contact_shadow;
     pixel["surface"] = story.shows == PixelShows::surface ? surface_json(story, name) : Json();
     pixel["layers"] = hits_json(story.layers, name);
     pixel["behind"] = hits_json(story.behind, name);

@@ -124,8 +124,10 @@ std::string shows_text(const PixelStory& story) {
                                     : story.background_kind == BackgroundKind::color     ? "a colour"
                                                                                          : "the environment";
     if (story.shows == PixelShows::layers) return fmt::format("no surface: layers in front of the background, {}\n", behind);
-    if (story.shows == PixelShows::background) return fmt::format("no surface: background, {}\n", behind);
-    return "";
+    if (story.shows != PixelShows::background) return "";
+    const std::string shadow =
+        story.contact_shadow > 0.0 ? fmt::format(", in a contact shadow of {:.3g} %", 100.0 * story.contact_shadow) : std::string();
+    return fmt::format("no surface: background, {}{}\n", behind, shadow);
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ struct PixelStory {
     Rgb3 emitted{};                   ///< emission and unlit colour
     Rgb3 background{};                ///< what is behind all surfaces
     /// @}
+    double contact_shadow = 0;  ///< opacity of the shadow on the background, in [0, 1]; where nothing but the background is seen
 
     std::string no_reference;  ///< why the error is not known; empty: it is
     Rgb3 reference_codes{};    ///< not rounded, by Accuracy::reference
