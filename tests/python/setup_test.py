@@ -114,7 +114,7 @@ class Keywords(unittest.TestCase):
         self.assertEqual(scene.render(setup=scene.setup(64), ev="auto+1").pixel_hash, expected.pixel_hash)
         for keywords, words in (({"ev": 1, "exposure": 2}, "ev: cannot be combined"), ({"ev": float("nan")}, "ev: expected -64 to 64"),
                                 ({"ev": "1"}, "ev: expected a number"), ({"ev": "auto+65"}, "ev: expected a number"),
-                                ({"exposure": 0}, "exposure: expected a factor above 0")):  # fmt: skip
+                                ({"exposure": 0}, "exposure: expected a factor above 0"), ({"exposure": "auto+1"}, "ev takes stops")):  # fmt: skip
             with self.assertRaisesRegex(halflit.UsageError, words):
                 scene.render(8, **keywords)
 

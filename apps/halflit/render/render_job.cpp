@@ -284,7 +284,8 @@ void tell_choices(RenderJob& job, const RenderOptions& given) {
                                       : given.environment.empty()      ? ", and the environment studio"
                                                                        : ", and the environment " + given.environment,
                                       job.light.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
-    job.choices.push_back(fmt::format("exposure: {}{}", job.settings.exposure, given.exposure ? "" : ", chosen"));
+    job.choices.push_back(fmt::format("exposure: {}, {:+.2f} stops{}", job.settings.exposure, std::log2(double{job.settings.exposure}),
+                                      given.exposure ? "" : ", chosen"));
     if (!given.background_linear && !given.settings.background_environment)
         job.choices.push_back(fmt::format("background: {}", job.settings.background_linear == usual_settings().background_linear
                                                                 ? "dark grey"

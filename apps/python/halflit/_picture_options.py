@@ -105,7 +105,7 @@ class PictureOptions(ViewOptions, total=False):
             to 2^20; more end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
         contact_shadow: Opacity of the soft shadow below a model that stands, over the background, where all light from above is
             hidden: 0 to 1. There is none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below.
-            0: none. (0)
+            0: none. (0.85)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)

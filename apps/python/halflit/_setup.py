@@ -100,6 +100,8 @@ def exposure_of(options: Dict[Any, Any]) -> Tuple[Optional[float], float]:
         if not -64 <= real(ev, "ev") <= 64:
             raise UsageError(f"ev: expected -64 to 64, found {ev!r}")
         return float(2.0 ** ctypes.c_float(ev).value), 0.0
+    if isinstance(exposure, str):
+        raise UsageError(f"exposure: expected a factor above 0, found {exposure!r}; ev takes stops and 'auto+1'")
     if exposure is not None and not 0 < real(exposure, "exposure") < math.inf:
         raise UsageError(f"exposure: expected a factor above 0, found {exposure!r}")
     return exposure, 0.0
