@@ -91,12 +91,16 @@ make_packages() {
     fi
     step image make_image
     step "Debian's source package" make_debian_source
-    find "$root/build/packages" -maxdepth 1 -type f -newer "$start" -name "*halflit*" -exec cp -t "$folder" {} +
+    # Not the archive of this system's program, which halflit-VERSION-linux-PROCESSOR.tar.gz is for too.
+    find "$root/build/packages" -maxdepth 1 -type f -newer "$start" -name "*halflit*" ! -name "halflit-$version-$(uname -m).tar.gz" \
+        -exec cp -t "$folder" {} +
     works "$root/build/install/bin/halflit"
     if [ "$(uname -m)" = x86_64 ]; then
         works "$(unpacked linux-x86_64)/halflit"
         works qemu-aarch64 "$(unpacked linux-aarch64)/halflit"
-        PATH=$PATH:/usr/lib/wine WINEDEBUG=-all WINEPREFIX=$work/wine works wine64 "$(unpacked windows-x86_64)/halflit.exe"
+        export PATH=$PATH:/usr/lib/wine WINEDEBUG=-all WINEPREFIX=$work/wine
+        works wine64 "$(unpacked windows-x86_64)/halflit.exe"
+        wineserver -k || true  # its services outlive the program
     fi
 }
 
