@@ -2,7 +2,9 @@
 // triangle's snapped vertices. Every vertex attribute is then v0 + b1 (v1 - v0) + b2 (v2 - v0).
 //
 // The weight of vertex i is E_i / w_i, where E_i is the edge function of the opposite edge. With d_i = vertex_i - pixel (exact integers),
-// E_0 = d1 x d2, and so on. All three are clamped at 0, so that an attribute never leaves its triangle's range.
+// E_0 = d1 x d2, and so on. A centre outside of the triangle, which samples of the pixel lie in, is moved perpendicularly onto each edge
+// that it is beyond. Then all three are clamped at 0, so that an attribute never leaves its triangle's range. The clamping alone moves a
+// point towards the opposite corner: in slivers by hundreds of pixels.
 //
 // First the block's vertices are found, then each vector of lanes is computed. If all of its lanes show one triangle, its values are
 // broadcast. Otherwise each lane loads records of its own, and transposes make rows of them. Both ways do the same operations on each lane.
@@ -26,7 +28,22 @@ struct Barycentrics {
     F db1_dx, db1_dy, db2_dx, db2_dy;  ///< per pixel; valid if gradients were asked for
 };
 
-HALFLIT_INLINE F positive_cross(F ax, F ay, F bx, F by) { return vmax(ax * by - ay * bx, F(0.0f)); }
+HALFLIT_INLINE F cross(F ax, F ay, F bx, F by) { return ax * by - ay * bx; }
+
+/// Moves the centre onto the edges that it is beyond, one after the other. dx, dy: from it to the vertices. Lanes inside keep their bits.
+[[gnu::noinline]] static void move_inside(F (&dx)[3], F (&dy)[3]) {
+    const F ex[3] = {dx[2] - dx[1], dx[0] - dx[2], dx[1] - dx[0]}, ey[3] = {dy[2] - dy[1], dy[0] - dy[2], dy[1] - dy[0]};
+    for (int k = 0; k < 3; ++k) {
+        const int p = (k + 1) % 3, q = (k + 2) % 3;
+        const F beyond = cross(dx[p], dy[p], dx[q], dy[q]);
+        const F part = sel(beyond < F(0.0f), vdiv(beyond, ex[k] * ex[k] + ey[k] * ey[k]), F(0.0f));
+        const F move_x = part * ey[k], move_y = part * ex[k];
+        for (int i = 0; i < 3; ++i) {
+            dx[i] = dx[i] - move_x;
+            dy[i] = dy[i] + move_y;
+        }
+    }
+}
 
 HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, bool gradients) {
     const I cx = shl<8>(px), cy = shl<8>(py);
@@ -35,9 +52,22 @@ HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, boo
         dx[k] = to_float(t.x[k] - cx);
         dy[k] = to_float(t.y[k] - cy);
     }
-    const F w0 = positive_cross(dx[1], dy[1], dx[2], dy[2]) * t.inv_w[0];
-    const F w1 = positive_cross(dx[2], dy[2], dx[0], dy[0]) * t.inv_w[1];
-    const F w2 = positive_cross(dx[0], dy[0], dx[1], dy[1]) * t.inv_w[2];
+    F e[3];
+    const auto edges = [&](const F(&x)[3], const F(&y)[3]) __attribute__((always_inline)) {
+        for (int k = 0; k < 3; ++k) {
+            const int p = (k + 1) % 3, q = (k + 2) % 3;
+            e[k] = cross(x[p], y[p], x[q], y[q]);
+        }
+    };
+    edges(dx, dy);
+    if (any(vmin(vmin(e[0], e[1]), e[2]) < F(0.0f))) {
+        F moved_x[3] = {dx[0], dx[1], dx[2]}, moved_y[3] = {dy[0], dy[1], dy[2]};
+        move_inside(moved_x, moved_y);
+        edges(moved_x, moved_y);
+    }
+    const F w0 = vmax(e[0], F(0.0f)) * t.inv_w[0];
+    const F w1 = vmax(e[1], F(0.0f)) * t.inv_w[1];
+    const F w2 = vmax(e[2], F(0.0f)) * t.inv_w[2];
     const F sum = (w0 + w1) + w2;
     const F inv = sel(sum > F(0.0f), vdiv(F(1.0f), sum), F(0.0f));
     Barycentrics b;

@@ -14,10 +14,21 @@ void weights_at(const ScreenVertex* const (&corner)[3], int x_px, int y_px, doub
         x[k] = corner[k]->x - 256 * x_px;
         y[k] = corner[k]->y - 256 * y_px;
     }
+    const auto edge_of = [&](int k) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        return x[a] * y[b] - y[a] * x[b];
+    };
+    for (int k = 0; k < 3; ++k) {  // onto each edge that the centre is beyond
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        const double beyond = edge_of(k), across_x = x[b] - x[a], across_y = y[b] - y[a];
+        if (!(beyond < 0.0)) continue;
+        const double part = beyond / (across_x * across_x + across_y * across_y);
+        for (double& along : x) along -= part * across_y;
+        for (double& along : y) along += part * across_x;
+    }
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-        const int a = (k + 1) % 3, b = (k + 2) % 3;
-        const double edge = x[a] * y[b] - y[a] * x[b];
+        const double edge = edge_of(k);
         weight[k] = edge > 0.0 ? edge * double{corner[k]->inv_w} : 0.0;
         sum += weight[k];
     }

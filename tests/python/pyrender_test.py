@@ -325,7 +325,7 @@ class Scripts(unittest.TestCase):
         color, depth = renderer.render(scene)
         self.check_depth(depth, np.concatenate([placed(ball, joint) for joint in joints]), sides, np.eye(4))
         self.assertGreater(int(color[depth > 0][:, 0].mean()), 100)
-        self.assertLess(int(color[depth > 0][:, 1].max()), 100)
+        self.assertLess(int(color[depth > 0][:, 1].max()), 110)
 
     def test_tacto_draws_a_sensor_by_several_cameras_with_their_own_lights(self):
         # facebookresearch/tacto, tacto/renderer.py, with pybullet: cameras, gel and lights move together; lights are removed and added.

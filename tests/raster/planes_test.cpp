@@ -172,6 +172,50 @@ struct Street {
 
 }  // namespace
 
+TEST_CASE("planes: the point that is shaded lies within a pixel of its middle, in slivers too", "[raster][planes]") {
+    // A sheet that is cut into a fan of slivers, turned a little, with its texture coordinates from the place.
+    constexpr int kSlivers = 150, kSide = 64;
+    Mesh fan;
+    const double c = std::cos(0.02), s = std::sin(0.02);
+    const auto add = [&](double x, double y) {
+        fan.positions.push_back({static_cast<float>(c * x - s * y), static_cast<float>(s * x + c * y), 0});
+        fan.uv0.push_back({fan.positions.back().x, fan.positions.back().y});
+    };
+    add(-1, 0);
+    for (int i = 0; i <= kSlivers; ++i) add(1, 0.7 * i / kSlivers - 0.35);
+    for (std::uint32_t i = 1; i <= kSlivers; ++i) fan.indices.insert(fan.indices.end(), {0, i, i + 1});
+    fan.normals.assign(fan.positions.size(), {0, 0, 1});
+    fan.material = 0;
+    Scene scene;
+    scene.materials.resize(1);
+    scene.meshes.push_back(fan);
+    scene.instances.push_back({0, {}});
+    Camera camera = camera_at({0, 0, 5}, {0, 0, 0});
+    camera.orthographic = true;
+    camera.half_height = 1.1f;
+    for (const int samples : {1, 4, 8, 16}) {
+        Settings settings;
+        settings.samples = samples;
+        std::vector<float> position(3 * kSide * kSide), uv(2 * kSide * kSide), depth(kSide * kSide);
+        REQUIRE(render(scene, camera, settings,
+                       {.width = kSide, .height = kSide, .depth = depth.data(), .position = position.data(), .uv = uv.data()}));
+        double farthest = 0, farthest_uv = 0;
+        int seen = 0;
+        for (std::size_t i = 0; i < depth.size(); ++i) {
+            if (depth[i] == kInf) continue;
+            const double pixel = 2.2 / kSide, x = (static_cast<double>(i % kSide) + 0.5) * pixel - 1.1,
+                         y = 1.1 - (static_cast<double>(i / kSide) + 0.5) * pixel;
+            farthest = std::max(farthest, std::hypot(double{position[3 * i]} - x, double{position[3 * i + 1]} - y) / pixel);
+            farthest_uv = std::max(farthest_uv, std::hypot(double{uv[2 * i]} - x, double{uv[2 * i + 1]} - y) / pixel);
+            seen += 1;
+        }
+        CAPTURE(samples);
+        CHECK(seen > 500);
+        CHECK(farthest < (samples == 1 ? 0.01 : 0.72));
+        CHECK(farthest_uv < (samples == 1 ? 0.01 : 0.72));
+    }
+}
+
 TEST_CASE("planes: depth is the distance of a plane that faces the camera", "[raster][planes]") {
     for (const float distance : {0.11f, 0.5f, 1.0f, 7.25f, 300.0f, 4e4f, 1e7f})
         for (const float far_ratio : {0.0f, 1.5f, 1000.0f})
