@@ -26,7 +26,7 @@ double brightest(const Rgb3& c) { return std::max({c[0], c[1], c[2]}); }
 
 Rgb3 difference(const Rgb3& a, const Rgb3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Codes before they are rounded. A background colour has no tone curve.
+/// Codes before they are rounded.
 Rgb3 codes_of(ToneCurve curve, const Rgb3& linear) {
     const Vec3d shown = shading::reference::toned(curve, {linear[0], linear[1], linear[2]});
     return {shading::reference::srgb_code(shown.x), shading::reference::srgb_code(shown.y), shading::reference::srgb_code(shown.z)};
@@ -193,10 +193,17 @@ private:
             story_.no_reference = reference.error().message;
             return;
         }
-        const bool colour = story_.shows == PixelShows::background && story_.coverage == 0.0 && !settings_.background_environment;
-        const ToneCurve curve = colour ? ToneCurve::none : settings_.tone_curve;
-        story_.reference_codes = codes_of(curve, reference->linear);
-        const Rgb3 error = difference(codes_of(curve, story_.linear), story_.reference_codes);
+        // The curve is for each sample, and a background colour, unlit surfaces and lines have none: the mean light has the picture's codes
+        // by one curve, or by none.
+        Rgb3 shown{};
+        for (std::size_t i = 0; i < 3; ++i) shown[i] = double(story_.codes[i]), story_.reference_codes[i] = double(reference->codes[i]);
+        for (const ToneCurve curve : {settings_.tone_curve, ToneCurve::none}) {
+            const Rgb3 own = codes_of(curve, story_.linear), apart = difference(own, shown);
+            if (std::any_of(apart.begin(), apart.end(), [](double x) { return absolute(x) > 0.51; })) continue;
+            shown = own, story_.reference_codes = codes_of(curve, reference->linear);
+            break;
+        }
+        const Rgb3 error = difference(shown, story_.reference_codes);
         for (std::size_t i = 0; i < 3; ++i) story_.error_codes[i] = absolute(error[i]);
     }
 
@@ -255,7 +262,13 @@ private:
         const auto before_black = draw(light_, settings, true);
         if (!before_black) return tl::unexpected(before_black.error());
         story_.background = difference(whole, before_black->linear);
-        if (story_.shows == PixelShows::background && story_.coverage == 0.0) story_.contact_shadow = before_black->alpha;
+        if (settings.contact_shadow > 0.0f) {
+            Settings without = settings;
+            without.contact_shadow = 0.0f;
+            const auto drawn = draw(light_, without, true);
+            if (!drawn) return tl::unexpected(drawn.error());
+            if (drawn->alpha < 1.0) story_.contact_shadow = (before_black->alpha - drawn->alpha) / (1.0 - drawn->alpha);
+        }
         settings.shading.max_error_codes = 0.0;
         Lighting around = light_;
         around.lights.clear(), around.suns = false;

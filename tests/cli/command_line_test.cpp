@@ -85,7 +85,8 @@ TEST_CASE("command line: quiet leaves errors alone, verbose says what was chosen
     CHECK(contains(run(scene).err, "halflit: warning: " + folder.file("a.jpg") + ": this format has no transparency"));
     CHECK(with("-q").empty());
     CHECK(with("--quiet").empty());
-    for (const char* part : {"transparency", "camera: the file's, front", "exposure: 1", "lights: 2", "16x16", "ms: load", "wrote"})
+    for (const char* part :
+         {"transparency", "camera: the file's, front", "exposure: 1, +0.00 stops", "lights: 2", "16x16", "ms: load", "wrote"})
         CHECK(contains(with("-v"), part));
     CHECK(run({"render", "missing.glb", "-q"}).err.starts_with("halflit: error: "));
     CHECK(

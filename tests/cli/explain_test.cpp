@@ -50,6 +50,17 @@ TEST_CASE("explain: the text has the codes of the picture, and names of mesh, no
     CHECK(contains(outcome.out, "\npixel 63,0 of 64x64: " + color(63, 0) + "\nno surface: background, a colour\n"));
 }
 
+TEST_CASE("explain: a pixel in the contact shadow says its opacity", "[cli][explain]") {
+    const std::vector<std::string> head{"explain", "sphere:500", "--size", "64x64", "--elevation", "60", "--pixel", "32,60"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), head.begin(), head.end());
+        return run(more).out;
+    };
+    CHECK(contains(with({}), "no surface: background, a colour, in a contact shadow of "));
+    CHECK_FALSE(contains(with({"--contact-shadow", "0"}), "contact shadow"));
+    CHECK(json::parse(with({"--json"}))["pixels"][0]["contact_shadow"] > 0.0);
+}
+
 TEST_CASE("explain: JSON has a pixel for each flag, whose parts add up", "[cli][explain]") {
     const Outcome outcome = run({"explain", "demo", "--size", "64x36", "--pixel", "32,20", "--pixel", "3,3", "--json"});
     REQUIRE(outcome.code == 0);

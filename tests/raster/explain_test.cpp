@@ -220,6 +220,32 @@ TEST_CASE("explain: the background has its own codes, without a tone curve, and 
     CHECK(open > 2);
 }
 
+TEST_CASE("explain: lines and layers are no contact shadow, and an unlit surface has its own codes", "[raster][explain]") {
+    Scene scene;
+    Material pane = clay();
+    pane.alpha_mode = AlphaMode::blend, pane.base_color.w = 0.5f;
+    add_pane(scene, pane, 1, 0, 0.3f, 0.9f);
+    Material sign = clay();
+    sign.unlit = true;
+    add_pane(scene, sign, 1, 0, -0.9f, -0.3f);
+    Settings settings;
+    settings.tone_curve = ToneCurve::neutral;
+    settings.samples = 4;
+    settings.background_linear = {0.25f, 0.5f, 1, 1};
+    for (const auto& [opacity, edges] : {std::pair{0.0f, EdgeChoice::all}, {0.85f, EdgeChoice::all}, {0.85f, EdgeChoice::none}}) {
+        settings.contact_shadow = opacity, settings.edges = edges;
+        int unlit = 0;
+        for (int x = 0; x < kSize.width; ++x) {
+            const PixelStory story = story_of(scene, camera_flat(), settings, kSize, x, 20);
+            CHECK(story.contact_shadow == 0.0);
+            for (std::size_t c = 0; c < 3; ++c)
+                CHECK(absolute(story.reference_codes[c] - double(story.codes[c])) <= story.error_codes[c] + 0.51);
+            unlit += story.shows == PixelShows::surface;
+        }
+        CHECK(unlit > 2);
+    }
+}
+
 TEST_CASE("explain: a hole of a mask is neither a surface nor in a light's way", "[raster][explain]") {
     // Texels of the left half are holes.
     std::vector<std::uint8_t> texels;

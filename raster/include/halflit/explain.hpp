@@ -117,12 +117,14 @@ struct PixelStory {
     Rgb3 emitted{};                   ///< emission and unlit colour
     Rgb3 background{};                ///< what is behind all surfaces
     /// @}
-    double contact_shadow = 0;  ///< opacity of the shadow on the background, in [0, 1]; where nothing but the background is seen
+    double contact_shadow = 0;  ///< opacity of the shadow on what is seen of the background, in [0, 1]; 0 where none of it is seen
 
     std::string no_reference;  ///< why the error is not known; empty: it is
-    Rgb3 reference_codes{};    ///< not rounded, by Accuracy::reference
-    Rgb3 error_codes{};        ///< distance of the picture's codes from them, before rounding
-    double bound_codes = 0;    ///< the frame's promise; 0: none, as there is no error budget
+    /// By Accuracy::reference. Not rounded, but where samples of the pixel differ so much that their tone curves are not that of their
+    /// mean, as of a surface and a background colour.
+    Rgb3 reference_codes{};
+    Rgb3 error_codes{};      ///< distance of the picture's codes from them, rounded as they are
+    double bound_codes = 0;  ///< the frame's promise; 0: none, as there is no error budget
 };
 
 /// Lights that are drawn alone to tell their share. Those that may be brightest at the point come first.
