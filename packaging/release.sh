@@ -39,12 +39,19 @@ step() {
 version=$("$here/versions.py" "$root") || fail "the versions disagree; see above"
 [ -n "$dirty" ] || git -C "$root" diff --quiet HEAD -- || fail "there are changes that are not committed (--dirty releases the last commit)"
 mkdir -p "$1"
-folder=$(realpath "$1")
-[ ! -e "$folder/SHA256SUMS" ] || (cd "$folder" && cut -c67- SHA256SUMS | xargs -rd '\n' rm -f && rm SHA256SUMS)
-[ -z "$(ls -A "$folder")" ] || fail "$folder: expected an empty folder, found other files"
-work=$(mktemp -d) start=$work/start
+released=$(realpath "$1")
+# The files come into FOLDER at the end, all of them or none.
+work=$(mktemp -d) start=$work/start folder=$work/files
 touch "$start"
-trap 'rm -rf "$work"' EXIT
+mkdir "$folder"
+trap 'rm -rf "$work" || true' EXIT
+
+# Removes the files of an earlier run. Other files stay, and are an error.
+empty_folder() {
+    [ ! -e "$released/SHA256SUMS" ] || (cd "$released" && cut -c67- SHA256SUMS | xargs -rd '\n' rm -f && rm SHA256SUMS)
+    [ -z "$(ls -A "$released")" ] || fail "$released: expected an empty folder, found other files"
+}
+empty_folder
 
 make_source() {
     git -C "$root" archive --format=tar --prefix="halflit-$version/" HEAD | gzip -9n >"$folder/halflit-$version.tar.gz"
@@ -60,16 +67,18 @@ unpacked() {
     local package=halflit-$version-$1 archives=$root/build/packages
     if [ ! -d "$work/$package" ]; then
         if [ -e "$archives/$package.zip" ]; then
-            python3 -m zipfile -e "$archives/$package.zip" "$work"
+            python3 -m zipfile -e "$archives/$package.zip" "$work" || fail "$package.zip cannot be unpacked"
         else
-            tar -C "$work" -xf "$archives/$package.tar.gz"
+            tar -C "$work" -xf "$archives/$package.tar.gz" || fail "$package.tar.gz cannot be unpacked"
         fi
     fi
     echo "$work/$package"
 }
 
 make_image() {
-    "$here/image/oci.sh" "$(unpacked "linux-$(uname -m)")/halflit" "$work/image" "$version" >&2
+    local program
+    program=$(unpacked "linux-$(uname -m)")/halflit
+    "$here/image/oci.sh" "$program" "$work/image" "$version" >&2 || fail "the image could not be made"
     tar -C "$work/image" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -cf "$folder/halflit-$version-image-$(uname -m).tar" .
 }
 
@@ -95,12 +104,16 @@ make_packages() {
     find "$root/build/packages" -maxdepth 1 -type f -newer "$start" -name "*halflit*" ! -name "halflit-$version-$(uname -m).tar.gz" \
         -exec cp -t "$folder" {} +
     works "$root/build/install/bin/halflit"
+    local unpacked_here
+    unpacked_here=$(unpacked "linux-$(uname -m)")
+    works "$unpacked_here/halflit"
     if [ "$(uname -m)" = x86_64 ]; then
-        works "$(unpacked linux-x86_64)/halflit"
-        works qemu-aarch64 "$(unpacked linux-aarch64)/halflit"
+        unpacked_here=$(unpacked linux-aarch64)
+        works qemu-aarch64 "$unpacked_here/halflit"
+        unpacked_here=$(unpacked windows-x86_64)
         export PATH=$PATH:/usr/lib/wine WINEDEBUG=-all WINEPREFIX=$work/wine
-        works wine64 "$(unpacked windows-x86_64)/halflit.exe"
-        wineserver -k || true  # its services outlive the program
+        works wine64 "$unpacked_here/halflit.exe"
+        wineserver -k && wineserver -w || true  # its services outlive the program, and write into their folder
     fi
 }
 
@@ -113,4 +126,6 @@ awk -v version="$version" '/^## / { inside = ($2 == version) } inside' "$root/CH
 tar -C "$folder" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -c recipes | gzip -9n >"$folder/halflit-$version-recipes.tar.gz"
 rm -r "$folder/recipes"
 (cd "$folder" && find . -maxdepth 1 -type f ! -name SHA256SUMS -printf '%P\n' | LC_ALL=C sort | xargs -d '\n' sha256sum >SHA256SUMS)
-(cd "$folder" && ls -l && sha256sum --quiet -c SHA256SUMS)
+empty_folder
+mv "$folder"/* "$released"
+(cd "$released" && ls -l && sha256sum --quiet -c SHA256SUMS)

@@ -12,11 +12,10 @@ through ctypes and knows nothing of Python's or numpy's binary interface.
 
 The wheel brings the libraries that halflit needs beside it, renamed by their content so that another package's copy of the same library
 does not take their place, and with their licences. glibc and the C++ library stay those of the system, as PEP 600 asks: two C++ libraries
-in one process do not go together, unless one is linked statically and shows no names. A library that is linked so is for musl too, whose
-loader takes glibc's names of files for itself, if musl has all functions that it needs: a musl of this machine tells.
+in one process do not go together, unless one is linked statically and shows no names. A library that is linked so loads under musl too
+(cmake/portable/musl_names.c), and the wheel's name says it.
 """
 import base64
-import glob
 import gzip
 import hashlib
 import io
@@ -32,7 +31,8 @@ import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-OF_SYSTEM = re.compile(r"^(lib(c|m|dl|pthread|rt|resolv|util|stdc\+\+|gcc_s)\.so|ld-linux|linux-vdso)")
+C_LIBRARY = re.compile(r"^lib(c|m|dl|pthread|rt)\.so")
+OF_SYSTEM = re.compile(C_LIBRARY.pattern + r"|^(lib(resolv|util|stdc\+\+|gcc_s)\.so|ld-linux|linux-vdso)")
 # The newest version of the C++ library's symbols that distributions of a glibc have, as in auditwheel's policies.
 GLIBCXX_OF_GLIBC = ((24, 22), (26, 24), (27, 24), (28, 25), (31, 28), (34, 29), (35, 30), (38, 32), (39, 33), (41, 34))
 
@@ -131,23 +131,25 @@ def bundle(library, folder):
     return paths, libraries
 
 
-def functions(path, kind):
-    """Names of a library's dynamic symbols. kind: --defined-only or --undefined-only; those that may be absent are left out."""
-    found = re.findall(r"(\w) (\S+)$", output("nm", "-D", kind, path), re.M)
-    return {name.partition("@")[0] for letter, name in found if letter not in "wv" or kind == "--defined-only"}
-
-
-def musl_tag(paths):
-    """musllinux_1_2 with a dot before it, if musl has all that the files need; else nothing."""
-    there = glob.glob("/lib/ld-musl-*.so.1")
+def musl_tag(library, paths):
+    """musllinux_1_2 with a dot before it if musl can load the files, which are made from `library`; otherwise an empty string. A library
+    with the C++ library inside is made for musl, too: what musl lacks is an error."""
     text = "".join(output("readelf", "-d", path) for path in paths)
-    if not there or not all(re.match(r"lib(c|m|dl|pthread|rt)\.so", name) for name in re.findall(r"\(NEEDED\).*\[(.*)\]", text)):
+    if not all(C_LIBRARY.match(name) for name in re.findall(r"\(NEEDED\).*\[(.*)\]", text)):
         return ""
-    wanted = set().union(*(functions(path, "--undefined-only") for path in paths))
-    return "" if wanted - functions(there[0], "--defined-only") else f".musllinux_1_2_{machine(paths[0])}"
+    with open(os.path.join(ROOT, "cmake", "portable", "musl_names.txt"), encoding="utf-8") as file:
+        there = {name for line in file if not line.startswith("#") for name in line.split()}
+    needed_names = re.findall(r" U ([^@\s]+)", "".join(output("nm", "-D", "--undefined-only", path) for path in paths))
+    lacking = sorted(set(needed_names) - there)
+    if lacking:
+        sys.exit(f"build_wheel: {library} needs of musl: {' '.join(lacking)}, which cmake/portable/musl_names.txt does not have")
+    # std::istream >> and std::regex ask the locale's tables, which musl has elsewhere than glibc.
+    if re.search(r" _ZNSi6sentryC|basic_regex", output("nm", library)):
+        sys.exit(f"build_wheel: {library} reads text by streams or std::regex, which musl's locales do not allow")
+    return f".musllinux_1_2_{machine(paths[0])}"
 
 
-def platform_tag(paths):
+def platform_tag(library, paths):
     """manylinux_2_X of the oldest glibc that all files can be loaded with: by the versions of its symbols, and of the C++ library's; and
     that of musl where they can be loaded with it."""
     text = "".join(output("readelf", "-V", path) for path in paths)
@@ -155,7 +157,7 @@ def platform_tag(paths):
     glibcxx = max([0, *(int(minor) for minor in re.findall(r"Name: GLIBCXX_3\.4\.(\d+)", text))])
     for minor, newest in GLIBCXX_OF_GLIBC:
         if newest >= glibcxx:
-            return f"manylinux_2_{max(minor, glibc)}_{machine(paths[0])}{musl_tag(paths)}"
+            return f"manylinux_2_{max(minor, glibc)}_{machine(paths[0])}{musl_tag(library, paths)}"
     return f"linux_{machine(paths[0])}"
 
 
@@ -194,7 +196,7 @@ def make(library, folder, licences_folder=None):
             paths, libraries, tag = bundle_for_windows(library, scratch), {}, "py3-none-win_amd64"
         else:
             paths, libraries = bundle(library, scratch)
-            tag = "py3-none-" + platform_tag(paths)  # several, with dots between them
+            tag = "py3-none-" + platform_tag(library, paths)  # several, with dots between them
         for path in paths:
             with open(path, "rb") as file:
                 files["halflit/lib/" + os.path.basename(path)] = file.read()

@@ -44,6 +44,8 @@ if [ $system = windows ]; then
 else
     compiled_in+=(gcc-12-base)
     run sysroot "$here/sysroot.sh" "$arch" "$made/sysroot"
+    # A new C library: everything is linked with it.
+    if [ "$made/sysroot/.whole" -nt "$made/build/CMakeCache.txt" ]; then rm -rf "$made/build" "$made/prefix"; fi
     toolchain=(-DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DHALFLIT_ARCH="$arch" -DHALFLIT_SYSROOT="$made/sysroot")
 fi
 run libraries "$here/libraries.sh" "$sources" "$made/prefix" "${toolchain[@]}"

@@ -7,7 +7,7 @@ set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 arch=$1 folder=$2
 suite=bullseye
-if [ -e "$folder/.whole" ] && [ -z "$(find "$here" -type f -newer "$folder/.whole")" ]; then exit 0; fi
+if [ -e "$folder/.whole" ] && [ -z "$(find "$here/sysroot.sh" "$here"/*.c -newer "$folder/.whole")" ]; then exit 0; fi
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 'Label: Debian' | head -n 1)
 [ -n "$mirror" ] || {
     echo "sysroot.sh: an old C library needs an archive of Debian: apt here has none (apt-get update)" >&2

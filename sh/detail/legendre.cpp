@@ -1,5 +1,7 @@
 #include "sh/detail/legendre.hpp"
 
+#include <memory>
+
 namespace halflit::sh::detail {
 namespace {
 
@@ -43,7 +45,9 @@ void legendre(double cos_theta, double sin_theta, std::array<LegendreRow, kSpect
 }
 
 void band_values(const Vec3d* coefficients, Vec3d direction, std::array<Vec3d, kSpectrumBands>& values) {
-    std::array<LegendreRow, kSpectrumBands> rows;
+    // 66 kB, which a small stack does not have: a thread of musl has 128 KiB.
+    const auto kept = std::make_unique_for_overwrite<std::array<LegendreRow, kSpectrumBands>>();
+    std::array<LegendreRow, kSpectrumBands>& rows = *kept;
     const double ring = __builtin_sqrt(direction.x * direction.x + direction.y * direction.y);
     legendre(direction.z, ring, rows);
     const double x = ring > 0 ? direction.x / ring : 1.0, y = ring > 0 ? direction.y / ring : 0.0;

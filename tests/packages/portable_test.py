@@ -22,7 +22,7 @@ import picture_hash  # noqa: E402
 
 OLDEST_GLIBC = 25
 MOST_BYTES = 17_000_000
-OF_SYSTEM = re.compile(r"^(lib(c|m|dl|pthread|rt)\.so|ld-linux)")
+OF_SYSTEM = re.compile(r"^lib(c|m|dl|pthread|rt)\.so")
 LINKED = ("draco", "expat", "fmtlib", "gcc-12-base", "giflib", "imath", "libdeflate", "libjpeg-turbo", "libspng", "libwebp",
           "meshoptimizer", "openexr", "zlib")  # fmt: skip
 PACKAGES, PROGRAM, KNOT = sys.argv[1:] if len(sys.argv) == 4 else ("", "", "")
@@ -31,12 +31,48 @@ SCENES = (
     ("lights:16", "--size", "96x54", "--lobe", "valve"),
     ("/knot.glb", "--size", "120x90", "--env", "studio", "--samples", "4"),
 )
+# A program that loads its cases as ctypes loads a library, and two cases: what a missing file tells, and a function of the caller that
+# needs more of a thread's stack than musl gives.
+HOST = """
+#include <dlfcn.h>
+#include <stdio.h>
+int main(int count, char** arguments) {
+    void* const library = count == 2 ? dlopen(arguments[1], RTLD_NOW) : NULL;
+    int (*const run)(void) = library ? (int (*)(void))dlsym(library, "run") : NULL;
+    return run ? run() : printf("%s", dlerror());
+}
+"""
 MISSING = """
 #include <halflit/halflit.h>
 #include <stdio.h>
-int main(void) {
+int run(void) {
     halflit_scene* scene;
     return halflit_scene_load("x.stl", NULL, &scene) == 0 || printf("%s", halflit_last_error()) < 0;
+}
+"""
+DEEP = """
+#include <halflit/halflit.h>
+#include <stdio.h>
+static unsigned char pixels[256 * 256 * 4];
+static int32_t deep(void* user) {
+    volatile char stack[1 << 20];
+    for (int i = 0; i < 1 << 20; i += 4096) stack[i] = 1;
+    (void)user;
+    return stack[4096] - 1;
+}
+int run(void) {
+    halflit_scene* scene;
+    halflit_renderer* renderer;
+    halflit_camera camera = {.size = sizeof camera};
+    halflit_settings settings = {.size = sizeof settings};
+    halflit_execution execution;
+    halflit_target target;
+    halflit_execution_init(&execution, sizeof execution), halflit_target_init(&target, sizeof target);
+    execution.threads = 4, execution.cancelled = deep;
+    target.width = 256, target.height = 256, target.pixels = pixels;
+    return halflit_scene_create_demo(&scene) || halflit_renderer_create(&execution, &renderer) ||
+           halflit_choose_picture(scene, NULL, NULL, &camera, &settings, NULL) ||
+           halflit_render(renderer, scene, NULL, &camera, &settings, &target, NULL) || printf("drawn") < 0;
 }
 """
 
@@ -67,6 +103,13 @@ class Packages(unittest.TestCase):
         with tarfile.open(archive) as tar:
             tar.extractall(self.folder)
         return os.path.join(self.folder, os.path.basename(archive)[: -len(".tar.gz")])
+
+    def written(self, name, text):
+        """Writes a file. Returns its path."""
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
 
     def test_a_program_needs_no_file_of_the_system(self):
         for archive in glob.glob(os.path.join(PACKAGES, "halflit-*-linux-*.tar.gz")):
@@ -125,26 +168,29 @@ class Packages(unittest.TestCase):
         self.assertGreater(found, 0)
 
     def test_a_wheel_draws_the_same_pixels_by_musl(self):
-        wheels = glob.glob(os.path.join(PACKAGES, f"*musllinux_1_2_{os.uname().machine}.whl"))
+        wheels = glob.glob(os.path.join(PACKAGES, f"*manylinux_2_{OLDEST_GLIBC}_{os.uname().machine}*.whl"))
+        for wheel in wheels:
+            self.assertIn("musllinux_1_2", wheel)
         if not wheels or not shutil.which("musl-gcc"):
-            self.skipTest("no wheel for musl, or no musl-gcc")
+            self.skipTest("no wheel of this processor, or no musl-gcc")
         with zipfile.ZipFile(wheels[0]) as archive:
             (library,) = [archive.extract(name, self.folder) for name in archive.namelist() if ".so" in name]
-        program = os.path.join(self.folder, "program")
+        host = self.written("host.c", HOST)
+        output("musl-gcc", host, "-o", host + ".run")
+        self.assertIn("ld-musl", output("readelf", "-l", host + ".run"))
 
-        def run_source(script):
-            output("musl-gcc", "-I", INCLUDE, script, library, "-Wl,-rpath," + os.path.dirname(library), "-o", program)
-            self.assertIn("ld-musl", output("readelf", "-l", program))
-            return output(program, cwd=self.folder)
+        def told(source):
+            output("musl-gcc", "-shared", "-fPIC", "-Dmain=run", "-I", INCLUDE, source, library, "-Wl,-rpath," + os.path.dirname(library),
+                   "-o", source + ".so")  # fmt: skip
+            return output(host + ".run", source + ".so", cwd=self.folder)
 
-        run_source(os.path.join(GALLERY, "spiral.c"))
+        shutil.copy(os.path.join(GALLERY, "spiral.c"), self.folder)
+        self.assertEqual(told(os.path.join(self.folder, "spiral.c")), "")
         with open(os.path.join(GALLERY, "table.txt"), encoding="utf-8") as table:
             (expected,) = [row.split()[2] for row in table if row.startswith("spiral.c ")]
         self.assertEqual(picture_hash.of_file(pathlib.Path(self.folder, "spiral.png")), expected)
-        source = os.path.join(self.folder, "missing.c")
-        with open(source, "w", encoding="utf-8") as file:
-            file.write(MISSING)
-        self.assertEqual(run_source(source), "x.stl: cannot be opened: No such file or directory")
+        self.assertEqual(told(self.written("missing.c", MISSING)), "x.stl: cannot be opened: No such file or directory")
+        self.assertEqual(told(self.written("deep.c", DEEP)), "drawn")
 
 
 if __name__ == "__main__":
