@@ -18,6 +18,7 @@ import flag_pictures
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+GALLERY = ROOT / "apps/examples/gallery"
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 FIGURE = re.compile(r"^<!-- figure: ([a-z-]+) -->$", re.M)
 
@@ -60,12 +61,25 @@ def for_mkdocs(text):
     return "\n".join(out)
 
 
+def list_of_scripts():
+    """The gallery's scripts as links, with their titles."""
+    rows = ["", "", "## Scripts", "| script | shows |", "|---|---|"]
+    for line in (GALLERY / "table.txt").read_text(encoding="utf-8").splitlines():
+        if line and not line.startswith("#"):
+            name = line.split()[0]
+            title, sentence = [text.lstrip("#/ ") for text in (GALLERY / name).read_text(encoding="utf-8").splitlines()[:2]]
+            rows.append(f"| [{name}]({name}) | {title}. {sentence} |")
+    return "\n".join(rows) + "\n"
+
+
 def gather(source):
     """Copies the pages and what they link to. Returns the number of pages."""
     pages = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
     seen = set(pages)
     for path in pages:  # grows while it is read
         text = path.read_text(encoding="utf-8")
+        if path.parent == GALLERY:
+            text += list_of_scripts()
         for target in linked_files(path, text):
             if target in seen or not target.is_file():
                 continue
@@ -95,6 +109,15 @@ def draw_figures(program, source):
     return count
 
 
+def complete_scripts(site):
+    """Debian's mkdocs has its theme's scripts under other names than the theme asks for, and lacks one."""
+    asked = set(re.findall(r'src="(js/[^"]+)"', (site / "index.html").read_text(encoding="utf-8")))
+    for script in (site / name for name in asked):
+        if not script.exists():
+            like = sorted(script.parent.glob(script.name.split("-")[0] + "-*"))
+            script.write_bytes(like[0].read_bytes() if like else b"")
+
+
 def main():
     if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
@@ -114,6 +137,7 @@ def main():
         with open(source / "docs/reference.md", "a", encoding="utf-8") as file:
             file.write("\n[All names, by doxygen](../reference/index.html)\n")
     subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", output / "mkdocs.yml"], check=True)
+    complete_scripts(output / "site")
     print(f"{pages + 1} pages, {figures} figures, {pictures} pictures of flags", file=sys.stderr)
     return 0
 

@@ -23,8 +23,8 @@ inline constexpr int kGridWays = 3;
 inline constexpr float kGridOffset = 0.6f;
 /// Height of a point above the fragment's plane up to which it does not count, likewise: its own surface may hide it.
 inline constexpr float kGridClearance = 0.35f;
-/// Distance from the lattice's border within which hidden shares fade to 0, likewise: a floor goes on beyond it. All of the scene that the
-/// lattice was made for lies farther inside.
+/// Distance from the lattice's border within which hidden shares fade to 0, likewise, because a floor continues beyond the border. The
+/// scene that the lattice was made for lies farther inside.
 inline constexpr float kGridFade = 1.0f;
 /// Tangent of the angle between a direction and the ways about it; the least cosine a that counts is the same number.
 inline constexpr double kGridWayTangent = 0.21;

@@ -119,6 +119,7 @@ constexpr Document kDocuments[] = {
     {"docs/SKILL.md", "How an agent uses the program: when to look, how to read reports, recipes"},
     {"docs/flags.md", "All commands and flags"},
     {"docs/commands.md", "The commands, and their exit codes"},
+    {"docs/install.md", "The files of a release, and how each is installed"},
     {"docs/pictures.md", "What the program chooses for a picture; light, poses, planes beside the picture"},
     {"docs/views.md", "Views, drawings, sections, labelled sheets, and two versions compared"},
     {"docs/films.md", "Moving pictures, and many models in one run"},
