@@ -46,8 +46,9 @@ void legendre(double cos_theta, double sin_theta, std::array<LegendreRow, kSpect
 
 void band_values(const Vec3d* coefficients, Vec3d direction, std::array<Vec3d, kSpectrumBands>& values) {
     // 66 kB, which a small stack does not have: a thread of musl has 128 KiB.
-    const auto kept = std::make_unique_for_overwrite<std::array<LegendreRow, kSpectrumBands>>();
-    std::array<LegendreRow, kSpectrumBands>& rows = *kept;
+    using Rows = std::array<LegendreRow, kSpectrumBands>;
+    const std::unique_ptr<Rows> kept(new Rows);
+    Rows& rows = *kept;
     const double ring = __builtin_sqrt(direction.x * direction.x + direction.y * direction.y);
     legendre(direction.z, ring, rows);
     const double x = ring > 0 ? direction.x / ring : 1.0, y = ring > 0 ? direction.y / ring : 0.0;
