@@ -140,7 +140,7 @@ const kept = await memory();
 await init({});
 const anew = await memory();
 check("init({}) gives the memory of a large model back", after_huge > 1 << 27 && kept === after_huge && anew <= 1 << 25, `${after_huge}, ${kept}, ${anew}`);
-const full = await refused(render("sphere:40000000", { size: "64x64" }));
+const full = await refused(render("sphere:60000000", { size: "64x64" }));
 check("the end of memory is an error", full.code === 5 && full.message.includes("out of memory"), full.message);
 check("and the next scene has a new module", (await render(knot, { width: 160, height: 120, flags })).hash === by_flags.hash && (await memory()) < 1 << 28, await memory());
 
