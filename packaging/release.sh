@@ -46,12 +46,11 @@ touch "$start"
 mkdir "$folder"
 trap 'rm -rf "$work" || true' EXIT
 
-# Removes the files of an earlier run. Other files stay, and are an error.
-empty_folder() {
-    [ ! -e "$released/SHA256SUMS" ] || (cd "$released" && cut -c67- SHA256SUMS | xargs -rd '\n' rm -f && rm SHA256SUMS)
-    [ -z "$(ls -A "$released")" ] || fail "$released: expected an empty folder, found other files"
-}
-empty_folder
+# The files of an earlier run are replaced. Other files are an error.
+earlier=()
+if [ -e "$released/SHA256SUMS" ]; then readarray -t earlier < <(cut -c67- "$released/SHA256SUMS" && echo SHA256SUMS); fi
+others=$(LC_ALL=C comm -23 <(find "$released" -mindepth 1 -printf '%P\n' | LC_ALL=C sort) <(printf '%s\n' "${earlier[@]}" | LC_ALL=C sort))
+[ -z "$others" ] || fail "$released: expected an empty folder, found other files"
 
 make_source() {
     git -C "$root" archive --format=tar --prefix="halflit-$version/" HEAD | gzip -9n >"$folder/halflit-$version.tar.gz"
@@ -126,6 +125,6 @@ awk -v version="$version" '/^## / { inside = ($2 == version) } inside' "$root/CH
 tar -C "$folder" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -c recipes | gzip -9n >"$folder/halflit-$version-recipes.tar.gz"
 rm -r "$folder/recipes"
 (cd "$folder" && find . -maxdepth 1 -type f ! -name SHA256SUMS -printf '%P\n' | LC_ALL=C sort | xargs -d '\n' sha256sum >SHA256SUMS)
-empty_folder
+(cd "$released" && rm -f -- "${earlier[@]}")
 mv "$folder"/* "$released"
 (cd "$released" && ls -l && sha256sum --quiet -c SHA256SUMS)
