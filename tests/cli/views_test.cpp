@@ -124,6 +124,7 @@ TEST_CASE("views: wrong names, missing numbers, repeated sides and patterns with
     CHECK(has(message({"--view", "front", "--frames", "0-3", "-o", "{}.png"}),
               "--view and --camera all: cannot be combined with --frames or --turntable"));
     CHECK(has(message({"--view", "front,top", "--turntable", "4", "-o", "{}.png"}), "--view and --camera all: cannot be combined"));
+    CHECK(has(message({"--view", "front", "--azimuth", "30"}), "--azimuth, --elevation: cannot be combined with --view, which takes both"));
     CHECK(has(message({"--view", "front", "--camera", "0"}), "--camera: cannot be combined with --view"));
     CHECK(has(message({"--view", "front", "--camera-position", "1,2,3"}), "--camera-position: cannot be combined"));
     CHECK(has(message({"--fit", "37"}), "--fit: expected at most 36 pixels, 45 % of the picture's shorter side, found 37"));

@@ -360,6 +360,10 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
                         options.camera_orbit ? "--camera-orbit" : "--camera-position", options.camera_orbit ? "--camera-position, " : ""));
     if (options.camera_target && !placed_by_flags)
         return fail(ErrorCode::usage, "--camera-target: expected together with --camera-position or --camera-orbit");
+    const ViewSettings usual_view;
+    const bool own_side = options.view.azimuth_deg != usual_view.azimuth_deg || options.view.elevation_deg != usual_view.elevation_deg;
+    if (own_side && !options.camera && !options.film.views.empty())
+        return fail(ErrorCode::usage, "--azimuth, --elevation: cannot be combined with --view, which takes both as AZ,EL");
     if (options.camera && options.own_view())
         return fail(
             ErrorCode::usage,
