@@ -13,8 +13,8 @@ import halflit
 from support import CORNERS, FACES, box
 
 
-def wavy(side=1500):
-    """Vertices and faces of a surface of 4.5 million triangles."""
+def wavy(side=2200):
+    """Vertices and faces of a surface of 9.7 million triangles."""
     x, y = np.meshgrid(np.linspace(-1, 1, side, dtype=np.float32), np.linspace(-1, 1, side, dtype=np.float32))
     vertices = np.stack([x, 0.1 * np.sin(9 * x) * np.cos(7 * y), -y], axis=-1).reshape(-1, 3)
     i = (np.arange(side - 1, dtype=np.uint32)[:, None] * side + np.arange(side - 1, dtype=np.uint32))
