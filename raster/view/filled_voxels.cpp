@@ -14,6 +14,10 @@ constexpr int kMostVoxels = 64;   ///< on a side: bits of a word
 constexpr double kSpacing = 0.6;  ///< between points that mark a triangle's voxels, voxels
 constexpr double kPhase = 0.38;   ///< of the voxels' borders, so that round coordinates, which are rounded in many ways, are none
 
+/// Points that are marked before large triangles count by their corners alone: a second or so. A scene of a million triangles that each
+/// fill the grid has 40 times as many.
+constexpr std::uint64_t kMostMarks = std::uint64_t{1} << 28;
+
 class Marker {
 public:
     explicit Marker(FilledVoxels& voxels) : voxels_(voxels) {}
@@ -24,6 +28,7 @@ public:
         return {(double{p.x} - origin[0]) * scale, (double{p.y} - origin[1]) * scale, (double{p.z} - origin[2]) * scale};
     }
     void mark(Vec3d p) {
+        ++marks_;
         // Comparisons are false for what is not a number.
         const int(&size)[3] = voxels_.size;
         if (!(p.x >= 0.0 && p.x < size[0] && p.y >= 0.0 && p.y < size[1] && p.z >= 0.0 && p.z < size[2])) return;
@@ -35,7 +40,7 @@ public:
         mark(a);
         if (!(longest > kSpacing * kSpacing)) return;
         mark(b), mark(c);
-        if (!(longest < 1e18)) return;
+        if (!(longest < 1e18) || marks_ > kMostMarks) return;
         // Rows along the longest side, from it to the third corner.
         Vec3d from = a, to = b, third = c;
         if (longest == dot(bc, bc))
@@ -74,6 +79,7 @@ private:
     }
 
     FilledVoxels& voxels_;
+    std::uint64_t marks_ = 0;
 };
 
 bool hides(const Scene& scene, const Instance& instance) {
@@ -82,7 +88,7 @@ bool hides(const Scene& scene, const Instance& instance) {
     return material == nullptr || (material->alpha_mode == AlphaMode::opaque && !material->is_layer());
 }
 
-void mark_all(const PreparedData& prepared, Marker marker) {
+void mark_all(const PreparedData& prepared, Marker& marker) {
     TimeCheck check;
     constexpr std::size_t kMostKept = std::size_t{1} << 18;  // vertices; more would take much memory
     const Scene& scene = prepared.scene();
@@ -130,7 +136,8 @@ FilledVoxels filled_voxels(const PreparedData& scene) {
         voxels.size[axis] = std::min(kMostVoxels, static_cast<int>(last - first) + 1);
     }
     voxels.bits = {voxels.size[2], voxels.size[1]};
-    mark_all(scene, Marker(voxels));
+    Marker marker(voxels);
+    mark_all(scene, marker);
     return voxels;
 }
 

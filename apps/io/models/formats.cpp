@@ -17,23 +17,47 @@ namespace io::detail {
 
 namespace {
 
-/// Statements with which an OBJ file may begin.
-bool is_obj_statement(std::string_view word) {
-    static constexpr std::array kWords{"v",   "vn",    "vt",       "vp",       "f",          "fo",     "l",      "p",
-                                       "o",   "g",     "s",        "mtllib",   "usemtl",     "mg",     "lod",    "cstype",
-                                       "deg", "bevel", "c_interp", "d_interp", "shadow_obj", "maplib", "usemap", "call"};
-    return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+/// Marks that count as a format's own, whatever else the file has.
+constexpr int kCertain = 1'000'000;
+constexpr int certain_if(bool is) { return is ? kCertain : 0; }
+
+/// Lines of OBJ: two points for a statement with its numbers, one for its other words.
+int like_obj(const FileBegin& begin) {
+    static constexpr std::string_view kWithNumbers[] = {"v", "vn", "vt", "vp", "f", "fo", "l", "p"};
+    static constexpr std::string_view kOthers[] = {"o",    "g",        "s",        "mtllib",     "usemtl", "newmtl", "mg",
+                                                   "lod",  "cstype",   "deg",      "bevel",      "surf",   "curv",   "curv2",
+                                                   "parm", "c_interp", "d_interp", "shadow_obj", "maplib", "usemap", "call"};
+    const auto is_in = [](std::string_view word, const auto& list) {
+        return std::find(std::begin(list), std::end(list), word) != std::end(list);
+    };
+    int score = 0;
+    for (const std::string_view line : begin.lines) {
+        Words words(line);
+        const std::string_view word = words.next();
+        const std::string_view value = words.next();
+        if (is_in(word, kWithNumbers) && parse_loosely(value.substr(0, value.find('/')))) score += 2;
+        if (is_in(word, kOthers)) ++score;
+    }
+    return score;
 }
 
-/// The first word of a text, past lines that are empty or a comment.
-std::string_view first_word(std::string_view text) {
-    Lines lines(text);
-    std::string_view line;
-    while (lines.next(line)) {
-        const std::string_view word = Words(line).next();
-        if (!word.empty() && word[0] != '#') return word;
+/// Words of STL: a keyword with what has to come next, wherever lines end.
+int like_stl_text(const FileBegin& begin) {
+    int score = 0;
+    for (const std::string_view line : begin.lines) {
+        Words words(line);
+        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+            const std::string_view after = Words(words.rest()).next();
+            const bool is_pair = (same_word(word, "facet") && same_word(after, "normal")) ||
+                                 (same_word(word, "outer") && same_word(after, "loop")) ||
+                                 (same_word(word, "vertex") && parse_loosely(after.substr(0, after.find_first_of(",;"))));
+            if (is_pair) score += 2;
+            if (same_word(word, "endloop") || same_word(word, "endfacet") || same_word(word, "endsolid")) ++score;
+        }
+        Words first(line);
+        if (same_word(first.next(), "solid")) ++score;
     }
-    return {};
+    return score;
 }
 
 /// A binary STL file that was cut off, or has more behind its triangles: a number of triangles, and a first triangle, that may be meant.
@@ -49,30 +73,38 @@ bool looks_like_binary_stl(std::span<const std::byte> bytes) {
     return true;
 }
 
-Likeness certain_if(bool is) { return is ? Likeness::certain : Likeness::none; }
-
-Likeness like_stl(const FileBegin& begin) {
-    const bool says_solid = begin.word.size() >= 5 && same_word(begin.word.substr(0, 5), "solid");
-    if (says_solid || fits_binary_stl(begin.bytes)) return Likeness::certain;
-    return looks_like_binary_stl(begin.bytes) ? Likeness::perhaps : Likeness::none;
+int like_stl(const FileBegin& begin) {
+    if (fits_binary_stl(begin.bytes)) return kCertain;
+    if (begin.is_text) return like_stl_text(begin);
+    const bool says_solid = same_word(begin.word().substr(0, 5), "solid");
+    return says_solid || looks_like_binary_stl(begin.bytes) ? 1 : 0;
 }
 
 bool is_zip(std::string_view text) { return text.starts_with("PK\3\4") || text.starts_with("PK\5\6"); }
 
-bool is_ply(std::string_view text) { return text.starts_with("ply") && text.size() > 3 && is_line_end(text[3]); }
+bool is_ply(std::string_view text) {
+    return text.size() > 3 && same_word(text.substr(0, 3), "ply") && (is_line_end(text[3]) || is_blank(text[3]));
+}
+
+/// A reader that does not need the file's name.
+template <auto kRead>
+auto by_bytes(const ModelFile& file, const LoadOptions& options) {
+    return kRead(file.bytes, file.folder, options);
+}
 
 constexpr FormatRow kFormats[] = {
-    {ModelFormat::glb, "GLB", ".glb", [](const FileBegin& begin) { return certain_if(is_glb(begin.bytes)); }, read_gltf, files_of_gltf},
-    {ModelFormat::three_mf, "3MF", ".3mf", [](const FileBegin& begin) { return certain_if(is_zip(as_text(begin.bytes))); }, read_three_mf,
+    {ModelFormat::glb, "GLB", ".glb", [](const FileBegin& begin) { return certain_if(is_glb(begin.bytes)); }, by_bytes<read_gltf>,
+     by_bytes<files_of_gltf>},
+    {ModelFormat::three_mf, "3MF", ".3mf", [](const FileBegin& begin) { return certain_if(is_zip(as_text(begin.bytes))); },
+     by_bytes<read_three_mf>, nullptr},
+    {ModelFormat::ply, "PLY", ".ply", [](const FileBegin& begin) { return certain_if(is_ply(as_text(begin.bytes))); }, by_bytes<read_ply>,
+     by_bytes<files_of_ply>},
+    {ModelFormat::gltf, "glTF", ".gltf", [](const FileBegin& begin) { return certain_if(begin.word().starts_with('{')); },
+     by_bytes<read_gltf>, by_bytes<files_of_gltf>},
+    {ModelFormat::stl, "STL", ".stl", like_stl, by_bytes<read_stl>, nullptr},
+    {ModelFormat::obj, "OBJ", ".obj", like_obj, read_obj, files_of_obj},
+    {ModelFormat::off, "OFF", ".off", [](const FileBegin& begin) { return certain_if(is_off_header(begin.word())); }, by_bytes<read_off>,
      nullptr},
-    {ModelFormat::ply, "PLY", ".ply", [](const FileBegin& begin) { return certain_if(is_ply(as_text(begin.bytes))); }, read_ply,
-     files_of_ply},
-    {ModelFormat::gltf, "glTF", ".gltf", [](const FileBegin& begin) { return certain_if(begin.word.starts_with('{')); }, read_gltf,
-     files_of_gltf},
-    {ModelFormat::stl, "STL", ".stl", like_stl, read_stl, nullptr},
-    {ModelFormat::obj, "OBJ", ".obj", [](const FileBegin& begin) { return certain_if(is_obj_statement(begin.word)); }, read_obj,
-     files_of_obj},
-    {ModelFormat::off, "OFF", ".off", [](const FileBegin& begin) { return certain_if(is_off_header(begin.word)); }, read_off, nullptr},
 };
 
 constexpr bool each_format_has_a_row() {
@@ -149,14 +181,31 @@ const ForeignFormat* find_foreign_format(std::span<const std::byte> bytes) {
 std::span<const FormatRow> formats() { return kFormats; }
 
 const FormatRow* find_format(std::span<const std::byte> bytes) {
-    const FileBegin begin{bytes, first_word(as_text(bytes))};
-    const FormatRow* likely = nullptr;
+    const FileBegin begin(bytes);
+    const FormatRow* found = nullptr;
+    int most = 0;
     for (const FormatRow& row : kFormats) {
-        const Likeness likeness = row.likeness(begin);
-        if (likeness == Likeness::certain) return &row;
-        if (likeness == Likeness::perhaps && likely == nullptr) likely = &row;
+        const int score = row.likeness(begin);
+        if (score > most) most = score, found = &row;
+        if (most >= kCertain) break;
     }
-    return likely;
+    return found;
+}
+
+FileBegin::FileBegin(std::span<const std::byte> whole) : bytes(whole), is_text(begins_as_text(whole)) {
+    constexpr std::size_t kMostLines = 256, kMostBytes = 65536, kMostSkipped = std::size_t{1} << 20;
+    const std::string_view text = as_text(whole);
+    Lines all(text.substr(0, kMostSkipped));
+    std::size_t first = 0;
+    for (std::string_view line; lines.size() < kMostLines && all.next(line);) {
+        const std::string_view words = Words(line).rest();
+        const auto at = static_cast<std::size_t>(line.data() - text.data());
+        if (words.empty() || words[0] == '#') continue;
+        if (lines.empty()) first = at;
+        if (at > first + kMostBytes) break;
+        lines.push_back(words.substr(0, kMostBytes));
+        if (!is_text) break;
+    }
 }
 
 std::string list_of_formats(std::string_view FormatRow::*column) {

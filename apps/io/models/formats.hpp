@@ -1,6 +1,7 @@
 // The formats of models: one row for each. Reading, the files that a model refers to, names in messages and names of files go through it.
 #pragma once
 
+#include "apps/io/models/model_readers.hpp"
 #include "halflit/model.hpp"
 
 #include <cstddef>
@@ -12,26 +13,33 @@
 
 namespace halflit::io::detail {
 
-/// The begin of a file, for the formats' tests.
+/// The begin of a file, for the formats' scores.
 struct FileBegin {
-    std::span<const std::byte> bytes;  ///< of the whole file
-    std::string_view word;             ///< the first word of its text, past a byte order mark, empty lines and comments (#)
-};
+    explicit FileBegin(std::span<const std::byte> whole);
+    /// The first word of its text, past a byte order mark, empty lines and comments (#).
+    [[nodiscard]] std::string_view word() const {
+        return lines.empty() ? std::string_view() : lines[0].substr(0, lines[0].find_first_of(" \t\v\f"));
+    }
 
-enum class Likeness : std::uint8_t { none, perhaps, certain };
+    std::span<const std::byte> bytes;  ///< of the whole file
+    bool is_text;                      ///< begins_as_text()
+    std::vector<std::string_view>
+        lines;  ///< the first ones that are neither empty nor a comment, without blanks around; of binary files, one
+};
 
 struct FormatRow {
     ModelFormat format;
     std::string_view name;       ///< model_format_name()
     std::string_view extension;  ///< of files, with its point
-    Likeness (*likeness)(const FileBegin& begin);
-    /// Throws LoadFailure. bytes, folder for files that it refers to, options.
-    LoadedScene (*read)(std::span<const std::byte>, const std::string&, const LoadOptions&);
+    /// How much the begin of a file looks like this format: 0 not at all.
+    int (*likeness)(const FileBegin& begin);
+    /// Throws LoadFailure.
+    LoadedScene (*read)(const ModelFile&, const LoadOptions&);
     /// Paths of all files that the model names, whether or not they exist; null: it names none. Throws LoadFailure.
-    std::vector<std::string> (*files)(std::span<const std::byte>, const std::string&, const LoadOptions&);
+    std::vector<std::string> (*files)(const ModelFile&, const LoadOptions&);
 };
 
-/// In the order in which their tests are asked; of equal likeness the first counts.
+/// In the order in which they are asked; of equal likeness the first counts.
 [[nodiscard]] std::span<const FormatRow> formats();
 /// The row of a file's content; null: of none.
 [[nodiscard]] const FormatRow* find_format(std::span<const std::byte> bytes);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace halflit::io::detail {
@@ -168,6 +169,44 @@ void ModelBuilder::place_alone(Soup&& soup, std::span<const int> material_of) {
     place(meshes, "");
 }
 
+void ModelBuilder::place_points(Soup&& soup, AlphaMode alpha) {
+    // Of a file that was cut off there may be less.
+    if (soup.normals.size() != soup.positions.size()) soup.normals.clear();
+    if (soup.colors.size() != soup.positions.size()) soup.colors.clear();
+    if (static_cast<std::size_t>(std::count(soup.normals.begin(), soup.normals.end(), Vec3f{})) > soup.normals.size() / 10)
+        soup.normals.clear();
+    take_entries<std::uint32_t>(soup.positions.size());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < soup.positions.size(); ++i) {
+        if (!fits_float(soup.positions[i])) continue;
+        soup.positions[kept] = soup.positions[i];
+        if (!soup.normals.empty()) soup.normals[kept] = soup.normals[i];
+        if (!soup.colors.empty()) soup.colors[kept] = soup.colors[i];
+        ++kept;
+    }
+    if (const std::size_t lost = soup.positions.size() - kept; lost > 0)
+        document_->warn(fmt::format("{} points with coordinates that are not finite are left out", lost));
+    if (kept == 0) return;
+    soup.positions.resize(kept);
+    if (!soup.normals.empty()) soup.normals.resize(kept);
+    if (!soup.colors.empty()) soup.colors.resize(kept);
+    soup.position_of.resize(kept);
+    std::iota(soup.position_of.begin(), soup.position_of.end(), 0u);
+    const Vec3d origin = move_near(soup, options().recentre);
+    Mesh mesh;
+    mesh.topology = Topology::points;
+    mesh.positions = std::move(soup.points);
+    mesh.normals = std::move(soup.normals);
+    mesh.colors = std::move(soup.colors);
+    mesh.indices = std::move(soup.position_of);
+    mesh.material = mesh.colors.empty() ? grey_material() : colored_material();
+    Material& material = loaded_.scene.materials[static_cast<std::size_t>(mesh.material)];
+    material.alpha_mode = alpha;
+    if (mesh.normals.empty()) material.unlit = true;
+    const int index = add_mesh(std::move(mesh), origin);
+    place({&index, 1}, "");
+}
+
 /// What an instance takes until it is drawn, at most; files may place a mesh by few bytes.
 constexpr std::uint64_t kInstanceBytes = 4096;
 
@@ -231,6 +270,7 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     images_->finish(loaded_.scene.materials);
     make_visible(*document_, loaded_.scene);
     if (left_out_ > 0) document_->warn(fmt::format("{} triangles with coordinates that are not finite are left out", left_out_));
+    if (loaded_.scene.instances.empty() && document_->first_failure) throw LoadFailure{*document_->first_failure};
     if (loaded_.scene.instances.empty()) document_->warn("the model has nothing to draw");
     SceneInfo& info = document_->info;
     info.meshes = info.primitives = loaded_.scene.meshes.size();

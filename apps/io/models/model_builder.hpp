@@ -68,6 +68,9 @@ public:
     int add_mesh(Mesh mesh, Vec3d origin);
     /// Adds and places the meshes of a soup that is one object.
     void place_alone(Soup&& soup, std::span<const int> material_of);
+    /// Adds and places the positions of a soup as points, with its normals and colours where there is one for each. Those without normals
+    /// are not lit: without any, or where more than a tenth is 0, as some programs write where there is none.
+    void place_points(Soup&& soup, AlphaMode alpha = AlphaMode::opaque);
     /// Places meshes by a node under the root.
     void place(std::span<const int> meshes, const std::string& name, const Affine& root_from_node = {});
     /// A camera in the file's space; the projection's lengths are the file's too.

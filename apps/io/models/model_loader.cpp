@@ -7,6 +7,7 @@
 #include "apps/io/gltf/loader.hpp"
 #include "apps/io/models/formats.hpp"
 #include "apps/io/models/model_readers.hpp"
+#include "apps/io/platform/files.hpp"
 #include "sh/time_limit.hpp"
 #include "shading/out_of_time.hpp"
 
@@ -52,6 +53,11 @@ std::string utf8_of_utf16(std::span<const std::byte> bytes) {
     return text;
 }
 
+std::string name_of(const std::string& path) {
+    const std::size_t slash = platform::last_separator(path);
+    return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> io::files_named_by(const std::string& path, const LoadOptions& options) {
@@ -63,7 +69,7 @@ Result<std::vector<std::string>> io::files_named_by(const std::string& path, con
         const std::span<const std::byte> read = text.empty() ? std::span<const std::byte>(*bytes) : std::as_bytes(std::span(text));
         const FormatRow* const row = find_format(read);
         if (row == nullptr || row->files == nullptr) return std::vector<std::string>{};
-        return row->files(read, folder_of(path), options);
+        return row->files({read, folder_of(path), name_of(path)}, options);
     } catch (const LoadFailure&) {
         return std::vector<std::string>{};
     } catch (const OutOfTime& found) {
@@ -73,12 +79,13 @@ Result<std::vector<std::string>> io::files_named_by(const std::string& path, con
 
 namespace {
 
-LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+LoadedScene read_model(const ModelFile& file, const LoadOptions& options) {
+    const std::span<const std::byte> bytes = file.bytes;
     if (bytes.size() > options.limits.max_file_bytes)
         refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
                ErrorCode::limit);
     if (const std::string text = options.strict ? std::string() : utf8_of_utf16(bytes); !text.empty()) {
-        LoadedScene loaded = read_model(std::as_bytes(std::span(text)), base_dir, options);
+        LoadedScene loaded = read_model({std::as_bytes(std::span(text)), file.folder, file.name}, options);
         loaded.warnings.emplace_back("the text has two bytes a character (UTF-16), read as such");
         return loaded;
     }
@@ -87,21 +94,23 @@ LoadedScene read_model(std::span<const std::byte> bytes, const std::string& base
         refuse("", fmt::format("is {}, which is not read; {}", foreign->name, foreign->advice));
     if (bytes.empty()) refuse("", "the file is empty");
     if (row == nullptr) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
-    return row->read(bytes, base_dir, options);
+    return row->read(file, options);
 }
 
 }  // namespace
 
 Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std::string& name, const std::string& base_dir,
                                      const LoadOptions& options) {
-    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> { return read_model(bytes, base_dir, options); });
+    return errors_of(name, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
+        return read_model({bytes, base_dir, name_of(name)}, options);
+    });
 }
 
 Result<LoadedScene> load_model(const std::string& path, const LoadOptions& options) {
     return errors_of(path, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
         const auto bytes = read_file(path, options.limits.max_file_bytes);
         if (!bytes) return tl::unexpected(bytes.error());
-        return read_model(*bytes, folder_of(path), options);
+        return read_model({*bytes, folder_of(path), name_of(path)}, options);
     });
 }
 

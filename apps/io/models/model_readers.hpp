@@ -13,10 +13,15 @@
 
 namespace halflit::io::detail {
 
+/// A model's file.
+struct ModelFile {
+    std::span<const std::byte> bytes;
+    std::string folder;  ///< for the files that it refers to; empty: none
+    std::string name;    ///< without its folder; empty: not known
+};
+
 /// True if the length is exactly what the number of triangles of a binary STL file takes.
 [[nodiscard]] bool fits_binary_stl(std::span<const std::byte> bytes);
-/// True if an STL file is binary: its length is what its number of triangles takes, or it does not begin as text.
-[[nodiscard]] bool is_binary_stl(std::span<const std::byte> bytes);
 
 /// True for the first word of an OFF file.
 [[nodiscard]] bool is_off_header(std::string_view word);
@@ -25,10 +30,9 @@ namespace halflit::io::detail {
 [[nodiscard]] LoadedScene read_off(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
-[[nodiscard]] LoadedScene read_obj(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
+[[nodiscard]] LoadedScene read_obj(const ModelFile& file, const LoadOptions& options);
 /// Paths of all files that the model names, whether or not they exist.
-[[nodiscard]] std::vector<std::string> files_of_obj(std::span<const std::byte> bytes, const std::string& base_dir,
-                                                    const LoadOptions& options);
+[[nodiscard]] std::vector<std::string> files_of_obj(const ModelFile& file, const LoadOptions& options);
 [[nodiscard]] std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir,
                                                     const LoadOptions& options);
 /// Fails (usage) where the library was built without expat.

@@ -23,6 +23,15 @@ namespace halflit::io::detail {
     return text;
 }
 
+/// True if the first kilobyte has no byte that text does not have: no control character but white space and DOS's end of file.
+[[nodiscard]] inline bool begins_as_text(std::span<const std::byte> bytes) {
+    const std::string_view begin = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024)));
+    return std::all_of(begin.begin(), begin.end(), [](char c) {
+        const auto code = static_cast<unsigned char>(c);
+        return code >= ' ' || (code >= '\t' && code <= '\r') || code == 0x1A;
+    });
+}
+
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 [[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
@@ -59,17 +68,22 @@ template <class T>
     return sign * (exponent_of(word) < 0 ? T{0} : std::numeric_limits<T>::infinity());
 }
 
-/// A number as files of all countries and C libraries have it: parse_real, with a comma for the point ("0,5"), and not a number where the
-/// word is a C library's for that ("nan(ind)", "1.#QNAN", "-1.#IND", "1.#INF").
+/// A number as files of all countries, languages and C libraries have it: parse_real, with a comma for the point ("0,5"), Fortran's D for
+/// the exponent's E ("1.5D+01"), C's f at the end ("1.5f"), and not a number where the word is a C library's for that ("nan(ind)",
+/// "1.#QNAN", "-1.#IND", "1.#INF").
 [[nodiscard]] inline std::optional<double> parse_loosely(std::string_view word) {
     if (const auto value = parse_real<double>(word)) return value;
-    const std::size_t comma = word.find(',');
-    if (comma != std::string_view::npos && word.size() < 64 && word.find('.') == std::string_view::npos) {
+    if (word.size() < 64 && word.find_first_of(",Dd") != std::string_view::npos && word.find_first_of("0123456789") < 3) {
         std::array<char, 64> text{};
         std::copy(word.begin(), word.end(), text.begin());
-        text[comma] = '.';
-        return parse_real<double>({text.data(), word.size()});
+        if (const std::size_t comma = word.find(','); comma != std::string_view::npos && word.find('.') == std::string_view::npos)
+            text[comma] = '.';
+        if (const std::size_t exponent = word.find_first_of("Dd"); exponent != std::string_view::npos) text[exponent] = 'e';
+        if (const auto value = parse_real<double>({text.data(), word.size()})) return value;
     }
+    if (word.size() > 1 && lower(word.back()) == 'f' &&
+        (word[word.size() - 2] == '.' || (word[word.size() - 2] >= '0' && word[word.size() - 2] <= '9')))
+        return parse_real<double>(word.substr(0, word.size() - 1));
     if (word.find("#QNAN") != std::string_view::npos || word.find("#IND") != std::string_view::npos ||
         word.find("#INF") != std::string_view::npos || word.starts_with("nan(") || word.starts_with("-nan("))
         return std::numeric_limits<double>::quiet_NaN();

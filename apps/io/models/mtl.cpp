@@ -1,27 +1,27 @@
 #include "apps/io/models/mtl.hpp"
 
 #include "apps/io/files/text.hpp"
-#include "apps/io/models/model_text.hpp"
-#include "sh/time_limit.hpp"
+#include "apps/io/models/text_scanner.hpp"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace halflit::io::detail {
 
 namespace {
 
-std::optional<double> next_number(Words& words) {
-    Words ahead = words;
-    const auto value = parse_real<double>(ahead.next());
-    if (value) words = ahead;
-    return value && std::isfinite(*value) ? value : std::nullopt;
+std::optional<double> next_number(TextScanner& words) {
+    double value = 0;
+    if (!words.take_number(value) || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 /// "r g b", or "r" for three equal ones. "spectral" and "xyz" are not read.
-std::optional<std::array<double, 3>> read_color(Words words) {
+std::optional<std::array<double, 3>> read_color(TextScanner& words) {
     const auto r = next_number(words);
     if (!r) return std::nullopt;
     const auto g = next_number(words), b = next_number(words);
@@ -29,7 +29,7 @@ std::optional<std::array<double, 3>> read_color(Words words) {
 }
 
 /// The values of -o, -s or -t: one to three numbers, of which a picture uses two.
-void read_pair(Words& words, std::array<double, 2>& pair) {
+void read_pair(TextScanner& words, std::array<double, 2>& pair) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto value = next_number(words);
         if (!value) return;
@@ -37,75 +37,84 @@ void read_pair(Words& words, std::array<double, 2>& pair) {
     }
 }
 
-MtlTexture read_texture(Words words) {
+MtlTexture read_texture(TextScanner& words) {
+    constexpr std::string_view kOneWord[] = {"-blendu", "-blendv", "-cc", "-texres", "-boost", "-imfchan", "-type"};
     MtlTexture texture;
+    std::array<double, 2> ignored{};
     for (;;) {
-        Words option = words;
-        const std::string_view name = option.next();
-        std::array<double, 2> ignored{};
-        if (name == "-o") {
-            read_pair(option, texture.offset);
-        } else if (name == "-s") {
-            read_pair(option, texture.scale);
-        } else if (name == "-t") {
-            read_pair(option, ignored);
-        } else if (name == "-mm") {
-            option.next();
-            option.next();
-        } else if (name == "-bm") {
-            texture.bump = std::clamp(next_number(option).value_or(1.0), -1e6, 1e6);
-        } else if (name == "-clamp") {
-            texture.clamp = same_word(option.next(), "on");
-        } else if (name == "-blendu" || name == "-blendv" || name == "-cc" || name == "-texres" || name == "-boost" || name == "-imfchan" ||
-                   name == "-type") {
-            option.next();
+        const std::string_view option = words.next_in_line();
+        const bool has_one = std::find(std::begin(kOneWord), std::end(kOneWord), option) != std::end(kOneWord);
+        if (!has_one && option != "-o" && option != "-s" && option != "-t" && option != "-mm" && option != "-bm" && option != "-clamp")
+            break;
+        words.word_in_line();
+        if (option == "-o") {
+            read_pair(words, texture.offset);
+        } else if (option == "-s") {
+            read_pair(words, texture.scale);
+        } else if (option == "-t") {
+            read_pair(words, ignored);
+        } else if (option == "-bm") {
+            texture.bump = std::clamp(next_number(words).value_or(1.0), -1e6, 1e6);
         } else {
-            texture.file = words.rest();
-            return texture;
+            const std::string_view value = words.word_in_line();
+            if (option == "-mm") words.word_in_line();
+            if (option == "-clamp") texture.clamp = same_word(value, "on");
         }
-        words = option;
     }
+    texture.file = unquoted(words.rest_of_line(true));
+    // Pictures of several tiles, as Mari and Mudbox number them: the first is the square from 0 to 1.
+    for (const auto& [mark, first] : {std::pair("<UDIM>", "1001"), {"<udim>", "1001"}, {"<UVTILE>", "u1_v1"}, {"<uvtile>", "u1_v1"}})
+        if (const std::size_t at = texture.file.find(mark); at != std::string::npos) {
+            texture.file.replace(at, std::string_view(mark).size(), first);
+            texture.is_tile = true;
+        }
+    return texture;
 }
 
-/// A statement of a material.
-void read_statement(std::string_view word, Words words, MtlMaterial& m) {
-    const auto not_drawn = [&] {
-        if (m.not_drawn.size() < 8) m.not_drawn.push_back(printable(word, 20));
-    };
-    const auto set = [&](auto& value, const auto& read) {
-        if (!read) return not_drawn();  // "Kd spectral file.rfl", or no value
-        value = read;
-    };
-    const auto number = [&](std::optional<double>& value) { set(value, next_number(words)); };
-    const auto color = [&](std::optional<std::array<double, 3>>& value) { set(value, read_color(words)); };
-    const auto map = [&](MtlTexture& texture) {
-        texture = read_texture(words);
-        if (texture.file.empty()) not_drawn();
-    };
-    if (same_word(word, "kd")) return color(m.kd);
-    if (same_word(word, "ks")) return color(m.ks);
-    if (same_word(word, "ke")) return color(m.ke);
-    if (same_word(word, "ns")) return number(m.ns);
-    if (same_word(word, "d")) {
-        if (words.rest().starts_with("-halo")) words.next();
-        return number(m.d);
+template <class Value>
+struct Statement {
+    std::string_view name;
+    Value MtlMaterial::*value;
+};
+constexpr Statement<std::optional<std::array<double, 3>>> kColors[] = {
+    {"kd", &MtlMaterial::kd}, {"ks", &MtlMaterial::ks}, {"ke", &MtlMaterial::ke}};
+constexpr Statement<std::optional<double>> kNumbers[] = {
+    {"ns", &MtlMaterial::ns}, {"d", &MtlMaterial::d}, {"tr", &MtlMaterial::tr}, {"pr", &MtlMaterial::pr}, {"pm", &MtlMaterial::pm}};
+constexpr Statement<MtlTexture> kMaps[] = {
+    {"map_kd", &MtlMaterial::map_kd}, {"map_ks", &MtlMaterial::map_ks}, {"map_pr", &MtlMaterial::map_pr}, {"map_pm", &MtlMaterial::map_pm},
+    {"map_ke", &MtlMaterial::map_ke}, {"map_d", &MtlMaterial::map_d},   {"map_bump", &MtlMaterial::bump}, {"bump", &MtlMaterial::bump},
+    {"norm", &MtlMaterial::norm},     {"map_kn", &MtlMaterial::norm}};
+/// Ka and map_Ka say how much of the light from around is returned, which the base colour does; illum is the model of a renderer.
+constexpr std::string_view kNotUsed[] = {"ka", "map_ka", "illum", "ni", "tf", "sharpness"};
+template <class Table>
+auto find_statement(const Table& table, std::string_view word) {
+    const auto row = std::find_if(std::begin(table), std::end(table), [&](const auto& one) { return same_word(word, one.name); });
+    return row == std::end(table) ? nullptr : &*row;
+}
+void note_not_drawn(std::string_view word, MtlMaterial& m) {
+    if (m.not_drawn.size() < 8) m.not_drawn.push_back(printable(word, 20));
+}
+
+/// A statement of a material. False: MTL has none of this name.
+bool read_statement(std::string_view word, TextScanner& words, MtlMaterial& m) {
+    bool is_read = true;  // "Kd spectral file.rfl", or no value: it is not
+    if (const auto* color = find_statement(kColors, word)) {
+        const auto value = read_color(words);
+        is_read = value.has_value();
+        if (is_read) m.*color->value = value;
+    } else if (const auto* number = find_statement(kNumbers, word)) {
+        if (words.next_in_line() == "-halo") words.word_in_line();
+        const auto value = next_number(words);
+        is_read = value.has_value();
+        if (is_read) m.*number->value = value;
+    } else if (const auto* map = find_statement(kMaps, word)) {
+        m.*map->value = read_texture(words);
+        is_read = !(m.*map->value).file.empty();
+    } else if (std::none_of(std::begin(kNotUsed), std::end(kNotUsed), [&](std::string_view one) { return same_word(word, one); })) {
+        return false;
     }
-    if (same_word(word, "tr")) return number(m.tr);
-    if (same_word(word, "pr")) return number(m.pr);
-    if (same_word(word, "pm")) return number(m.pm);
-    if (same_word(word, "map_kd")) return map(m.map_kd);
-    if (same_word(word, "map_ks")) return map(m.map_ks);
-    if (same_word(word, "map_pr")) return map(m.map_pr);
-    if (same_word(word, "map_pm")) return map(m.map_pm);
-    if (same_word(word, "map_ke")) return map(m.map_ke);
-    if (same_word(word, "map_d")) return map(m.map_d);
-    if (same_word(word, "map_bump") || same_word(word, "bump")) return map(m.bump);
-    if (same_word(word, "norm") || same_word(word, "map_kn")) return map(m.norm);
-    // Ka and map_Ka say how much of the light from around is returned, which the base colour does; illum is the model of a renderer.
-    if (same_word(word, "ka") || same_word(word, "map_ka") || same_word(word, "illum") || same_word(word, "ni") || same_word(word, "tf") ||
-        same_word(word, "sharpness"))
-        return;
-    not_drawn();
+    if (!is_read) note_not_drawn(word, m);
+    return true;
 }
 
 float factor(double value, double most = 1.0) { return static_cast<float>(std::clamp(value, 0.0, most)); }
@@ -127,6 +136,10 @@ public:
             if (m.emissive == Vec3f{}) m.emissive = {1, 1, 1};
         }
         set_normal_map(m);
+        for (const auto& row : kMaps)
+            if ((from_.*row.value).is_tile)
+                builder_.document().warn(fmt::format("material \"{}\": of its picture's tiles the first alone is drawn: {}",
+                                                     printable(m.name, 80), printable((from_.*row.value).file, 120)));
         if (!from_.not_drawn.empty())
             builder_.document().warn(
                 fmt::format("material \"{}\": not drawn: {}", printable(m.name, 80), fmt::join(from_.not_drawn, ", ")));
@@ -160,6 +173,8 @@ private:
         const MtlTexture &color = from_.map_kd, &mask = from_.map_d;
         const bool has_color = !color.file.empty(), has_mask = !mask.file.empty();
         std::array<double, 3> kd = from_.kd.value_or(has_color ? std::array<double, 3>{1, 1, 1} : std::array<double, 3>{0.5, 0.5, 0.5});
+        if (std::max({kd[0], kd[1], kd[2]}) > 2.0)  // codes
+            for (double& channel : kd) channel /= 255.0;
         if (has_color && kd == std::array<double, 3>{}) kd = {1, 1, 1};  // as writers mean it: the picture alone
         const double alpha = from_.d ? *from_.d : 1.0 - from_.tr.value_or(0.0);
         m.base_color = {factor(kd[0]), factor(kd[1]), factor(kd[2]), factor(alpha)};
@@ -227,25 +242,37 @@ private:
 
 }  // namespace
 
-void read_mtl(std::string_view text, const std::string& name, ModelBuilder& builder, std::vector<MtlMaterial>& materials) {
-    Lines lines(text);
-    std::string_view line;
-    const std::size_t first = materials.size();
-    while (lines.next(line)) {
-        if (lines.number() % 4096 == 0) check_time();
-        Words words(line);
-        const std::string_view word = words.next();
-        if (word.empty() || word[0] == '#') continue;
-        builder.document().geometry.take(line.size());
-        if (same_word(word, "newmtl")) {
-            builder.document().geometry.take(sizeof(MtlMaterial));
-            materials.emplace_back().name = words.rest();
-        } else if (materials.size() > first) {
-            read_statement(word, words, materials.back());
-        } else {
-            builder.document().warn(fmt::format("{}: line {}: expected newmtl, found \"{}\"", name, lines.number(), printable(word, 40)));
-        }
+std::string_view unquoted(std::string_view name) {
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') return name.substr(1, name.size() - 2);
+    return name;
+}
+
+bool MtlText::take(std::string_view word, TextScanner& scanner) {
+    if (same_word(word, "newmtl")) {
+        const std::string_view name = unquoted(scanner.rest_of_line(true));
+        builder_.document().geometry.take(sizeof(MtlMaterial) + name.size());
+        materials_.emplace_back().name = name;
+        has_material_ = true;
+        return true;
     }
+    if (!has_material_) return false;
+    builder_.document().geometry.take(scanner.rest_size());
+    return read_statement(word, scanner, materials_.back());
+}
+
+void read_mtl(std::string_view text, const std::string& name, ModelBuilder& builder, std::vector<MtlMaterial>& materials) {
+    TextScanner scanner(text, builder.document(), name + ": ", true);
+    MtlText reader(builder, materials);
+    for (std::string_view word = scanner.word(); !word.empty(); word = scanner.word()) {
+        if (!reader.take(word, scanner)) {
+            if (reader.has_material())
+                note_not_drawn(word, materials.back());
+            else
+                scanner.unknown(word, "newmtl");
+        }
+        scanner.skip_line();
+    }
+    scanner.warn();
 }
 
 int make_material(const MtlMaterial& from, ModelBuilder& builder, MtlPictures& pictures) {

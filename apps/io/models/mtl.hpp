@@ -3,6 +3,7 @@
 
 #include "apps/io/models/model_builder.hpp"
 #include "apps/io/models/mtl_pictures.hpp"
+#include "apps/io/models/text_scanner.hpp"
 #include "halflit/material.hpp"
 
 #include <array>
@@ -19,6 +20,7 @@ struct MtlTexture {
     std::array<double, 2> scale{1, 1}, offset{};  ///< of u and v
     double bump = 1;                              ///< -bm
     bool clamp = false;
+    bool is_tile = false;  ///< the first of several, "wood.<UDIM>.png"
 };
 
 struct MtlMaterial {
@@ -27,6 +29,23 @@ struct MtlMaterial {
     std::optional<double> ns, d, tr, pr, pm;          ///< exponent, opacity, transparency, roughness, metalness
     MtlTexture map_kd, map_ks, map_ke, map_d, map_pr, map_pm, bump, norm;
     std::vector<std::string> not_drawn;  ///< statements that the picture lacks
+};
+
+/// A name without quotes around it.
+[[nodiscard]] std::string_view unquoted(std::string_view name);
+
+/// Appends the materials of statements of MTL, of an MTL file or among those of an OBJ file.
+class MtlText {
+public:
+    MtlText(ModelBuilder& builder, std::vector<MtlMaterial>& materials) : builder_(builder), materials_(materials) {}
+    /// A statement, whose values `scanner` has next. False: it is none of MTL, or stands before a material.
+    bool take(std::string_view word, TextScanner& scanner);
+    [[nodiscard]] bool has_material() const { return has_material_; }
+
+private:
+    ModelBuilder& builder_;
+    std::vector<MtlMaterial>& materials_;
+    bool has_material_ = false;
 };
 
 /// Appends the materials of an MTL file. `name` is for warnings. Wrong values are warned of, and left out.

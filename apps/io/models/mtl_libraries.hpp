@@ -2,12 +2,14 @@
 // The MTL files that an OBJ file names.
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/model_builder.hpp"
-#include "apps/io/models/model_text.hpp"
 #include "apps/io/models/mtl.hpp"
+#include "apps/io/models/text_scanner.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -15,14 +17,19 @@
 
 namespace halflit::io::detail {
 
-/// Materials by their names. They are made, and their pictures read, when a face uses them.
+/// Materials by their names. They are made, and their pictures read, when a face uses them. The MTL file with the model's name serves for
+/// those that are not found, as where files were renamed.
 class MtlLibraries {
 public:
-    explicit MtlLibraries(ModelBuilder& builder) : builder_(builder), pictures_(builder) {}
+    /// model_name: that of the OBJ file without its folder, or empty.
+    MtlLibraries(ModelBuilder& builder, std::string_view model_name)
+        : builder_(builder), pictures_(builder), own_name_(model_name.substr(0, model_name.rfind('.'))) {
+        if (!own_name_.empty()) own_name_ += ".mtl";
+    }
 
     /// mtllib: one name, which may have blanks in it, or several.
     void add(std::string_view names) {
-        if (names.find_first_of(" \t") == std::string_view::npos) return void(read(names, false));
+        if (names.starts_with('"') || names.find_first_of(" \t") == std::string_view::npos) return void(read(unquoted(names), false));
         if (read(names, true)) return;
         std::vector<std::string_view> missing;
         bool any = false;
@@ -35,15 +42,23 @@ public:
         if (!any) return void(read(names, false));
         for (const std::string_view name : missing) read(name, false);
     }
+    /// A statement of MTL in the OBJ file itself. False: it is none.
+    bool take_statement(std::string_view word, TextScanner& scanner) {
+        if (!within_) within_.emplace(builder_, materials_);
+        if (!within_->take(word, scanner)) return false;
+        if (materials_.size() > made_.size()) note_names();
+        return true;
+    }
     /// The scene's material; -1: none of that name.
     int find(const std::string& name) {
-        const auto known = number_of_.find(name);
-        if (known == number_of_.end()) {
+        std::size_t found = find_named(name);
+        if (found == kNoMaterial && !builder_.options().strict && read_own()) found = find_named(name);
+        if (found == kNoMaterial) {
             builder_.document().warn(fmt::format("usemtl {}: no material of this name was read; drawn in grey", printable(name, 80)));
             return -1;
         }
-        int& made = made_[known->second];
-        if (made < 0) made = make_material(materials_[known->second], builder_, pictures_);
+        int& made = made_[found];
+        if (made < 0) made = make_material(materials_[found], builder_, pictures_);
         return made;
     }
     /// Notes the files of all materials.
@@ -54,6 +69,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t kNoMaterial = static_cast<std::size_t>(-1);
+
     /// Reads a library; false where it cannot be read, of which it warns unless `quietly`.
     bool read(std::string_view name, bool quietly) {
         check_time();
@@ -62,22 +79,68 @@ private:
         const auto bytes = document.read_named(ModelBuilder::file_name(name));
         const std::string shown = "mtllib " + printable(name, 120);
         if (!bytes) {
-            if (!quietly) document.warn(fmt::format("{}: {}; its materials are drawn in grey", shown, bytes.error().message));
+            if (quietly) return false;
+            if (!document.options.strict && read_own()) {
+                document.warn(fmt::format("{}: {}; \"{}\" is read", shown, bytes.error().message, printable(own_name_, 120)));
+                return true;
+            }
+            document.warn(fmt::format("{}: {}; its materials are drawn in grey", shown, bytes.error().message));
             return false;
         }
-        document.encoded_images.take(bytes->size());
-        const std::size_t first = materials_.size();
-        read_mtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, shown, builder_, materials_);
-        made_.resize(materials_.size(), -1);
-        for (std::size_t i = first; i < materials_.size(); ++i) number_of_.try_emplace(materials_[i].name, i);
+        take_in(*bytes, shown);
+        if (name == own_name_) own_is_read_ = true;
         return true;
+    }
+    /// Reads the MTL file that has the model's name, once. False where there is none.
+    bool read_own() {
+        if (own_is_read_ || own_name_.empty()) return false;
+        own_is_read_ = true;
+        builder_.add_file(own_name_);
+        std::string found;
+        const LoadOptions& options = builder_.options();
+        const auto bytes = builder_.document().folder.read_like(own_name_, options.limits.max_file_bytes, found);
+        if (!bytes) return false;
+        builder_.document().warn(fmt::format("materials are those of \"{}\", which has the model's name", printable(found, 120)));
+        take_in(*bytes, "mtllib " + printable(found, 120));
+        return true;
+    }
+    void take_in(const std::vector<std::byte>& bytes, const std::string& shown) {
+        builder_.document().encoded_images.take(bytes.size());
+        read_mtl(as_text(bytes), shown, builder_, materials_);
+        note_names();
+    }
+    void note_names() {
+        const std::size_t first = made_.size();
+        made_.resize(materials_.size(), -1);
+        for (std::size_t i = first; i < materials_.size(); ++i) {
+            number_of_.try_emplace(materials_[i].name, i);
+            const auto [entry, is_new] = number_of_small_.try_emplace(small(materials_[i].name), i);
+            if (!is_new) entry->second = kNoMaterial;  // several
+        }
+    }
+    /// By its name, by its name up to a comment, or the only one whose letters differ in case alone.
+    std::size_t find_named(const std::string& name) const {
+        const std::size_t comment = std::min(name.find(" #"), name.size());
+        for (const std::string& one : {name, name.substr(0, comment)})
+            if (const auto known = number_of_.find(one); known != number_of_.end()) return known->second;
+        if (builder_.options().strict) return kNoMaterial;
+        const auto alike = number_of_small_.find(small(name));
+        return alike == number_of_small_.end() ? kNoMaterial : alike->second;
+    }
+    static std::string small(std::string_view name) {
+        std::string out(name);
+        for (char& c : out) c = lower(c);
+        return out;
     }
 
     ModelBuilder& builder_;
     MtlPictures pictures_;
     std::vector<MtlMaterial> materials_;
     std::vector<int> made_;
-    std::unordered_map<std::string, std::size_t> number_of_;
+    std::unordered_map<std::string, std::size_t> number_of_, number_of_small_;
+    std::optional<MtlText> within_;  ///< of statements in the OBJ file
+    std::string own_name_;
+    bool own_is_read_ = false;
 };
 
 }  // namespace halflit::io::detail

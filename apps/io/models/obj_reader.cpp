@@ -2,17 +2,18 @@
 // pow() of the C library, and has no limit on memory, time or the files that it opens.
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/model_builder.hpp"
+#include "apps/io/models/model_colors.hpp"
 #include "apps/io/models/model_readers.hpp"
-#include "apps/io/models/model_text.hpp"
 #include "apps/io/models/mtl_libraries.hpp"
 #include "apps/io/models/obj_strokes.hpp"
 #include "apps/io/models/polygon.hpp"
+#include "apps/io/models/text_scanner.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <map>
 #include <numeric>
 
@@ -25,33 +26,34 @@ struct Corner {
     std::uint32_t position, uv, normal;
 };
 
+/// Statements that do not change the picture.
+constexpr std::string_view kPassedOver[] = {"g",        "vp",       "mg",         "lod",       "cstype", "deg",    "bmat", "step",  "bevel",
+                                            "parm",     "trim",     "hole",       "scrv",      "sp",     "end",    "con",  "ctech", "stech",
+                                            "c_interp", "d_interp", "shadow_obj", "trace_obj", "maplib", "usemap", "call", "csh"};
+
 class ObjReader {
 public:
-    ObjReader(std::string_view text, ModelBuilder& builder) : lines_(text), builder_(builder), libraries_(builder), strokes_(builder) {}
+    ObjReader(const ModelFile& file, ModelBuilder& builder)
+        : scanner_(as_text(file.bytes), builder.document(), "", true),
+          builder_(builder),
+          libraries_(builder, file.name),
+          strokes_(builder) {}
 
     void read() {
-        std::string_view line;
-        std::string joined;
-        while (lines_.next(line)) {
-            if (lines_.number() % 65536 == 0) check_time();
-            line = without_comment(line);
-            if (line.ends_with('\\')) {
-                joined.clear();
-                do {
-                    joined.append(line.substr(0, line.size() - 1)).push_back(' ');
-                } while (lines_.next(line) && line.ends_with('\\'));
-                joined.append(line);
-                line = without_comment(joined);
-            }
-            read_statement(line);
+        scanner_.keep_comments("#MRGB ", painted_);
+        for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) {
+            read_statement(word);
+            scanner_.skip_line();
         }
         read_late_faces();
+        finish_colors();
         if (soup_.position_of.empty() && strokes_.empty() && bad_faces_ == 0 && !soup_.positions.empty()) {
             if (builder_.options().strict) refuse("", "it has vertices but no faces, lines or points");
             std::vector<std::uint32_t> all(soup_.positions.size());
             std::iota(all.begin(), all.end(), 0u);
             strokes_.add(current_part(), Topology::points, all);
         }
+        scanner_.warn();
         if (free_form_ > 0) builder_.document().warn("curves and free-form surfaces are not drawn");
         if (bad_faces_ > 0)
             builder_.document().warn(fmt::format("{} faces, lines or points with indices out of range left out", bad_faces_));
@@ -64,9 +66,11 @@ public:
     void finish() {
         std::vector<int> materials;
         std::vector<std::string> names;
-        for (const Part& part : parts_) {
-            const bool is_plain = part.material < 0;
-            materials.push_back(!is_plain ? part.material : part.has_colors ? builder_.colored_material() : builder_.grey_material());
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            const Part& part = parts_[i];
+            materials.push_back(part.material >= 0 ? part.material
+                                : part.has_colors  ? builder_.colored_material()
+                                                   : builder_.grey_material());
             names.push_back(objects_[part.object]);
         }
         std::map<std::uint32_t, std::vector<int>> meshes_of;  // of an object
@@ -78,10 +82,9 @@ public:
     }
 
     void add_files() {
-        std::string_view line;
-        while (lines_.next(line)) {
-            Words words(without_comment(line));
-            if (words.next() == "mtllib") libraries_.add(words.rest());
+        for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) {
+            if (word == "mtllib") libraries_.add(scanner_.rest_of_line());
+            scanner_.skip_line();
         }
         libraries_.add_files();
     }
@@ -94,68 +97,107 @@ private:
         bool has_colors;
     };
 
-    /// Without a comment, which begins a word: "wood#1" is a name.
-    static std::string_view without_comment(std::string_view line) {
-        for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
-            if (at == 0 || is_blank(line[at - 1])) return line.substr(0, at);
-        return line;
-    }
-    [[nodiscard]] std::string where() const { return fmt::format("line {}", lines_.number()); }
-
-    void read_statement(std::string_view line) {
-        Words words(line);
-        const std::string_view word = words.next();
-        if (word.empty()) return;
-        if (word == "v") return read_position(words);
+    void read_statement(std::string_view word) {
+        if (word == "v") return read_position();
         if (word == "vt") {
-            const Vec3d uv = read_numbers(words, 1);
-            const Vec3f rounded = fits_float(uv) ? rounded_near(uv, {}) : Vec3f{};
+            const double u = scanner_.number_in_line();
+            double v = 0;
+            scanner_.take_number(v);
             builder_.take_entries<Vec2f>(1);
+            const Vec3d uv{u, v, 0};
+            const Vec3f rounded = fits_float(uv) ? rounded_near(uv, {}) : Vec3f{};
             return soup_.uvs.push_back({rounded.x, 1.0f - rounded.y});
         }
         if (word == "vn") {
             builder_.take_entries<Vec3f>(1);
-            return soup_.normals.push_back(rounded_near(read_numbers(words, 3), {}));
+            return soup_.normals.push_back(rounded_near(read_vector(), {}));
         }
-        if (word == "f" || word == "fo") return read_face(words);
-        if (word == "usemtl") return use_material(std::string(words.rest()));
-        if (word == "mtllib") return libraries_.add(words.rest());
+        if (word == "f" || word == "fo") return read_face(scanner_);
+        if (word == "usemtl") return use_material(std::string(unquoted(scanner_.rest_of_line(true))));
+        if (word == "mtllib") return libraries_.add(scanner_.rest_of_line());
         if (word == "o") {
-            builder_.document().geometry.take(sizeof(std::string) + line.size());
-            objects_.emplace_back(words.rest());
+            const std::string_view name = scanner_.rest_of_line(true);
+            builder_.document().geometry.take(sizeof(std::string) + name.size());
+            objects_.emplace_back(name);
             part_ = kNone;
             return;
         }
-        if (word == "s") return read_smoothing(words.next());
-        if (word == "l") return read_stroke(words, Topology::lines);
-        if (word == "p") return read_stroke(words, Topology::points);
-        if (word == "curv" || word == "curv2" || word == "surf") ++free_form_;
+        if (word == "s") return read_smoothing(scanner_.word_in_line());
+        if (word == "l") return read_stroke(Topology::lines);
+        if (word == "p") return read_stroke(Topology::points);
+        if (word == "curv" || word == "curv2" || word == "surf") return void(++free_form_);
+        if (std::find(std::begin(kPassedOver), std::end(kPassedOver), word) != std::end(kPassedOver)) return;
+        if (!libraries_.take_statement(word, scanner_)) scanner_.unknown(word, "a statement of OBJ");
     }
 
-    /// Up to three numbers, at least `least`.
-    Vec3d read_numbers(Words& words, std::size_t least) {
-        std::array<double, 3> value{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::string_view word = words.next();
-            if (word.empty() && i >= least) break;
-            const auto number = builder_.options().strict ? parse_real<double>(word) : parse_loosely(word);
-            if (!number) refuse(where(), fmt::format("expected a number, found \"{}\"", printable(word, 40)));
-            value[i] = *number;
-        }
-        return {value[0], value[1], value[2]};
+    Vec3d read_vector() {
+        const double x = scanner_.number_in_line(), y = scanner_.number_in_line(), z = scanner_.number_in_line();
+        return {x, y, z};
     }
 
     /// x y z, and after them a weight, which surfaces alone use, or red, green and blue.
-    void read_position(Words& words) {
+    void read_position() {
         builder_.take_entries<Vec3d>(1);
-        soup_.positions.push_back(read_numbers(words, 3));
-        Words more = words;
-        more.next(), more.next();
-        if (more.next().empty()) return;
-        const Vec3d color = read_numbers(words, 3);
+        soup_.positions.push_back(read_vector());
+        double color[3];
+        std::size_t found = 0;
+        while (found < 3 && scanner_.take_number(color[found])) ++found;
+        if (found < 3) return;
         builder_.take_entries<Vec4f>(1 + soup_.positions.size() - soup_.colors.size());
-        soup_.colors.resize(soup_.positions.size() - 1, Vec4f{1, 1, 1, 1});
-        soup_.colors.push_back({linear_color(color.x), linear_color(color.y), linear_color(color.z), 1});
+        soup_.colors.resize(soup_.positions.size() - 1, kNoColor);
+        soup_.colors.push_back({static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), 1});
+    }
+
+    /// ZBrush writes colours into comments: eight hexadecimal digits a vertex, of a mask and of red, green and blue.
+    void read_painted() {
+        constexpr std::size_t kDigits = 8;
+        for (const std::string_view codes : painted_) {
+            for (std::size_t at = 0; at + kDigits <= codes.size() && soup_.colors.size() < soup_.positions.size(); at += kDigits) {
+                std::uint32_t value = 0;
+                const auto [end, error] = std::from_chars(codes.data() + at, codes.data() + at + kDigits, value, 16);
+                if (error != std::errc() || end != codes.data() + at + kDigits) break;
+                builder_.take_entries<Vec4f>(1);
+                soup_.colors.push_back(
+                    {static_cast<float>(value >> 16 & 255u), static_cast<float>(value >> 8 & 255u), static_cast<float>(value & 255u), 1});
+            }
+        }
+        make_linear(soup_.colors, 255);
+    }
+
+    /// Which corners have colours, and so which parts: vertices without one are white beside others.
+    void finish_colors() {
+        const auto has_color = [](const Vec4f& c) { return c.w != kNoColor.w; };
+        if (soup_.colors.empty()) {
+            read_painted();
+        } else {
+            const double unit = unit_of_colors(soup_.colors, false);
+            make_linear(soup_.colors, unit);
+        }
+        if (are_no_colors(ModelFormat::obj, soup_.colors)) {
+            soup_.colors.clear();
+            builder_.document().warn("its colours are all black, as where none were set: drawn in grey");
+        }
+        if (soup_.colors.empty()) return;
+        for (std::size_t i = 0; i < soup_.position_of.size(); ++i) {
+            const std::uint32_t position = soup_.position_of[i];
+            Part& part = parts_[soup_.part_of[i / 3]];
+            part.has_colors = part.has_colors || (position < soup_.colors.size() && has_color(soup_.colors[position]));
+        }
+        strokes_.for_each_corner([&](std::uint32_t part, std::uint32_t position) {
+            parts_[part].has_colors = parts_[part].has_colors || (position < soup_.colors.size() && has_color(soup_.colors[position]));
+        });
+        std::vector<bool> keeps(parts_.size());
+        for (std::size_t p = 0; p < parts_.size(); ++p) keeps[p] = parts_[p].has_colors && !has_picture(parts_[p]);
+        builder_.take_entries<std::uint32_t>(soup_.position_of.size());
+        soup_.color_of.resize(soup_.position_of.size(), kNone);
+        for (std::size_t i = 0; i < soup_.position_of.size(); ++i)
+            if (keeps[soup_.part_of[i / 3]] && soup_.position_of[i] < soup_.colors.size()) soup_.color_of[i] = soup_.position_of[i];
+        for (Vec4f& c : soup_.colors)
+            if (!has_color(c)) c = {1, 1, 1, 1};
+    }
+    [[nodiscard]] bool has_picture(const Part& part) const {
+        return part.material >= 0 &&
+               builder_.loaded().scene.materials[static_cast<std::size_t>(part.material)].textures[TextureSlot::base_color].used();
     }
 
     void read_smoothing(std::string_view word) {
@@ -173,15 +215,14 @@ private:
 
     /// The part of the next face.
     std::uint32_t current_part() {
-        const bool has_colors = !soup_.colors.empty();
-        if (part_ != kNone && parts_[part_].has_colors == has_colors) return part_;
+        if (part_ != kNone) return part_;
         if (!material_is_known_) material_ = has_material_name_ ? libraries_.find(material_name_) : -1;
         material_is_known_ = true;
         const auto object = static_cast<std::uint32_t>(objects_.size() - 1);
-        const auto [entry, is_new] = part_at_.try_emplace({object, material_, has_colors}, static_cast<std::uint32_t>(parts_.size()));
+        const auto [entry, is_new] = part_at_.try_emplace({object, material_}, static_cast<std::uint32_t>(parts_.size()));
         if (is_new) {
             builder_.document().geometry.take(128);
-            parts_.push_back({object, material_, has_colors});
+            parts_.push_back({object, material_, false});
         }
         return part_ = entry->second;
     }
@@ -202,7 +243,11 @@ private:
             word.remove_prefix(slash < word.size() ? slash + 1 : slash);
             if (text.empty() && i > 0) continue;
             const auto index = parse_whole<std::int64_t>(text);
-            if (!index) refuse(where(), fmt::format("expected an index, found \"{}\"", printable(text, 40)));
+            if (!index) {
+                scanner_.wrong(text, "an index");
+                if (i > 0) continue;
+                return false;
+            }
             const std::size_t count = i == 0 ? soup_.positions.size() : i == 1 ? soup_.uvs.size() : soup_.normals.size();
             std::uint32_t& number = i == 0 ? corner.position : i == 1 ? corner.uv : corner.normal;
             if (resolve(*index, count, number)) continue;
@@ -212,10 +257,10 @@ private:
                 continue;
             }
             if (builder_.options().strict)
-                refuse(where(), fmt::format("the index {} is out of range: {} {} came before", *index, count,
-                                            i == 0   ? "vertices"
-                                            : i == 1 ? "texture coordinates"
-                                                     : "normals"));
+                refuse(scanner_.where(), fmt::format("the index {} is out of range: {} {} came before", *index, count,
+                                                     i == 0   ? "vertices"
+                                                     : i == 1 ? "texture coordinates"
+                                                              : "normals"));
             return false;
         }
         return true;
@@ -223,23 +268,25 @@ private:
 
     /// A face whose vertices come after it.
     struct LateFace {
-        std::string corners, material;
+        std::string_view corners;
+        std::string material;
         bool has_material;
         std::uint32_t smoothing;
     };
-    [[nodiscard]] bool is_late(Words words) const {
-        if (builder_.options().strict || late_are_read_) return false;
+    [[nodiscard]] bool is_late(TextScanner& words) const {
         bool late = false;
-        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        for (std::string_view word = words.word_in_line(); !word.empty(); word = words.word_in_line()) {
             const auto index = parse_whole<std::int64_t>(word.substr(0, word.find('/')));
             if (!index || *index <= 0) return false;  // those that count back are known
             late = late || static_cast<std::uint64_t>(*index) > soup_.positions.size();
         }
         return late;
     }
-    void put_off(const Words& words) {
-        builder_.document().geometry.take(sizeof(LateFace) + words.rest().size() + material_name_.size());
-        late_.push_back({std::string(words.rest()), material_name_, has_material_name_, smoothing_});
+    void put_off(TextScanner& words) {
+        const std::string_view before = words.left();
+        words.skip_line();
+        builder_.document().geometry.take(sizeof(LateFace) + material_name_.size());
+        late_.push_back({before.substr(0, before.size() - words.left().size()), material_name_, has_material_name_, smoothing_});
     }
     void read_late_faces() {
         late_are_read_ = true;
@@ -247,46 +294,51 @@ private:
             if (i % 65536 == 0) check_time();
             if (late_[i].has_material) use_material(late_[i].material);
             smoothing_ = late_[i].smoothing;
-            Words words(late_[i].corners);
+            TextScanner words(late_[i].corners, builder_.document(), "", true);
             read_face(words);
         }
         late_.clear();
     }
 
     /// A polyline, or points.
-    void read_stroke(Words& words, Topology topology) {
+    void read_stroke(Topology topology) {
         std::vector<std::uint32_t> corners;
-        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        for (std::string_view word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
             Corner corner{};
             if (!read_corner(word, corner)) return void(++bad_faces_);
             corners.push_back(corner.position);
         }
         if (topology == Topology::lines && corners.size() < 2) {
-            if (builder_.options().strict) refuse(where(), "a line has one corner, expected at least 2");
+            if (builder_.options().strict) refuse(scanner_.where(), "a line has one corner, expected at least 2");
             return void(++short_faces_);
         }
         strokes_.add(current_part(), topology, corners);
     }
 
-    void read_face(Words& words) {
-        if (is_late(words)) return put_off(words);
+    void read_face(TextScanner& words) {
         face_.clear();
         points_.clear();
         triangles_.clear();
-        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        const TextScanner::Mark begin = words.mark();
+        const std::size_t lost = lost_attributes_;
+        for (std::string_view word = words.word_in_line(); !word.empty(); word = words.word_in_line()) {
             Corner corner{};
-            if (!read_corner(word, corner)) return void(++bad_faces_);
+            if (!read_corner(word, corner)) {
+                words.go_back(begin);
+                if (late_are_read_ || !is_late(words)) return void(++bad_faces_);
+                words.go_back(begin);
+                lost_attributes_ = lost;
+                return put_off(words);
+            }
             face_.push_back(corner);
             points_.push_back(soup_.positions[corner.position]);
         }
         if (face_.size() < 3) {
-            if (builder_.options().strict) refuse(where(), fmt::format("a face has {} corners, expected at least 3", face_.size()));
+            if (builder_.options().strict)
+                refuse(scanner_.where(), fmt::format("a face has {} corners, expected at least 3", face_.size()));
             return void(++short_faces_);
         }
         const std::uint32_t part = current_part();
-        const bool drops_colors =
-            parts_[part].material >= 0 &&
-            builder_.loaded().scene.materials[static_cast<std::size_t>(parts_[part].material)].textures[TextureSlot::base_color].used();
         builder_.take_triangles(face_.size() - 2);
         cutter_.cut(points_, triangles_);
         soup_.part_of.insert(soup_.part_of.end(), triangles_.size() / 3, part);
@@ -296,11 +348,14 @@ private:
             soup_.position_of.push_back(corner.position);
             soup_.uv_of.push_back(corner.uv);
             soup_.normal_of.push_back(corner.normal);
-            soup_.color_of.push_back(!drops_colors && corner.position < soup_.colors.size() ? corner.position : kNone);
         }
     }
 
-    Lines lines_;
+    /// A colour that is not there.
+    static constexpr Vec4f kNoColor{0, 0, 0, -1};
+
+    TextScanner scanner_;
+    std::vector<std::string_view> painted_;
     ModelBuilder& builder_;
     MtlLibraries libraries_;
     ObjStrokes strokes_;
@@ -308,7 +363,7 @@ private:
     PolygonCutter cutter_;
     std::vector<std::string> objects_{""};
     std::vector<Part> parts_;
-    std::map<std::tuple<std::uint32_t, int, bool>, std::uint32_t> part_at_;
+    std::map<std::pair<std::uint32_t, int>, std::uint32_t> part_at_;
     std::string material_name_;
     bool has_material_name_ = false, material_is_known_ = true;
     int material_ = -1;
@@ -321,25 +376,19 @@ private:
     std::size_t free_form_ = 0, bad_faces_ = 0, short_faces_ = 0, lost_attributes_ = 0;
 };
 
-std::string_view text_of(std::span<const std::byte> bytes) {
-    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    return text;
-}
-
 }  // namespace
 
-LoadedScene read_obj(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
-    ModelBuilder builder(bytes, base_dir, options, "OBJ");
-    ObjReader reader(text_of(bytes), builder);
+LoadedScene read_obj(const ModelFile& file, const LoadOptions& options) {
+    ModelBuilder builder(file.bytes, file.folder, options, "OBJ");
+    ObjReader reader(file, builder);
     reader.read();
     reader.finish();
     return builder.finish({});
 }
 
-std::vector<std::string> files_of_obj(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
-    ModelBuilder builder(bytes, base_dir, options, "OBJ");
-    ObjReader(text_of(bytes), builder).add_files();
+std::vector<std::string> files_of_obj(const ModelFile& file, const LoadOptions& options) {
+    ModelBuilder builder(file.bytes, file.folder, options, "OBJ");
+    ObjReader(file, builder).add_files();
     return builder.finish({}).info.files;
 }
 

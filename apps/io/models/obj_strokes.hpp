@@ -21,6 +21,12 @@ public:
     /// A polyline, or single points, as indices into the file's positions.
     void add(std::uint32_t part, Topology topology, std::span<const std::uint32_t> corners);
     [[nodiscard]] bool empty() const { return corners_of_.empty(); }
+    /// Calls visit(part, position) for all corners.
+    template <class Visit>
+    void for_each_corner(const Visit& visit) const {
+        for (const auto& [key, corners] : corners_of_)
+            for (const std::uint32_t position : corners) visit(key.first, position);
+    }
 
     /// Adds the meshes. `positions` and `colors` (empty or shorter, filled up with white) are the file's; material_of, name_of: of each
     /// part. Lines and points that are not finite are left out, with a warning.

@@ -1,12 +1,10 @@
 #include "apps/io/models/ply_header.hpp"
 
 #include "apps/io/files/load_failure.hpp"
-#include "apps/io/files/text.hpp"
-#include "apps/io/models/model_text.hpp"
+#include "apps/io/models/text_scanner.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -18,95 +16,87 @@ constexpr std::size_t kMostElements = 64, kMostProperties = 256;
 
 std::optional<PlyType> type_named(std::string_view name) {
     using enum PlyType;
-    constexpr std::array<std::pair<std::string_view, PlyType>, 16> kNames{{{"char", i8},
-                                                                           {"int8", i8},
-                                                                           {"uchar", u8},
-                                                                           {"uint8", u8},
-                                                                           {"short", i16},
-                                                                           {"int16", i16},
-                                                                           {"ushort", u16},
-                                                                           {"uint16", u16},
-                                                                           {"int", i32},
-                                                                           {"int32", i32},
-                                                                           {"uint", u32},
-                                                                           {"uint32", u32},
-                                                                           {"float", f32},
-                                                                           {"float32", f32},
-                                                                           {"double", f64},
-                                                                           {"float64", f64}}};
+    static constexpr std::pair<std::string_view, PlyType> kNames[] = {
+        {"char", i8},    {"int8", i8},   {"uchar", u8},    {"uint8", u8},   {"bool", u8},    {"byte", i8},
+        {"ubyte", u8},   {"short", i16}, {"int16", i16},   {"ushort", u16}, {"uint16", u16}, {"int", i32},
+        {"int32", i32},  {"uint", u32},  {"uint32", u32},  {"long", i64},   {"int64", i64},  {"ulong", u64},
+        {"uint64", u64}, {"float", f32}, {"float32", f32}, {"double", f64}, {"float64", f64}};
     for (const auto& [known, type] : kNames)
-        if (known == name) return type;
+        if (same_word(name, known)) return type;
     return std::nullopt;
 }
 
-PlyType read_type(std::string_view name, const std::string& where) {
+/// Of text, any type will do: its numbers are read as they are written.
+PlyType read_type(std::string_view name, const TextScanner& scanner, PlyFormat format) {
     const auto type = type_named(name);
-    if (!type) refuse(where, fmt::format("expected a type such as float or uchar, found \"{}\"", printable(name, 40)));
-    return *type;
+    if (!type && (format != PlyFormat::ascii || name.empty())) scanner.refuse_word(name, "a type such as float or uchar");
+    return type.value_or(PlyType::f64);
 }
 
-PlyProperty read_property(Words& words, const std::string& where) {
+PlyProperty read_property(TextScanner& scanner, PlyFormat format) {
     PlyProperty property;
-    std::string_view word = words.next();
-    if (word == "list") {
+    std::string_view word = scanner.word_in_line();
+    if (same_word(word, "list")) {
         property.is_list = true;
-        property.count_type = read_type(words.next(), where);
-        if (property.count_type >= PlyType::f32) refuse(where, "expected a whole number as the type of a list's length");
-        word = words.next();
+        word = scanner.word_in_line();
+        property.count_type = read_type(word, scanner, format);
+        if (!is_whole(property.count_type)) scanner.refuse_word(word, "a whole number as the type of a list's length");
+        word = scanner.word_in_line();
     }
-    property.type = read_type(word, where);
-    property.name = words.next();
-    if (property.name.empty()) refuse(where, "expected the property's name");
+    property.type = read_type(word, scanner, format);
+    property.name = scanner.word_in_line();
+    if (property.name.empty()) scanner.refuse_word("", "the property's name");
     return property;
 }
 
-PlyFormat read_format(std::string_view word, const std::string& where) {
-    if (word == "ascii") return PlyFormat::ascii;
-    if (word == "binary_little_endian") return PlyFormat::little_endian;
-    if (word != "binary_big_endian")
-        refuse(where, fmt::format("expected ascii, binary_little_endian or binary_big_endian, found \"{}\"", printable(word, 40)));
+PlyFormat read_format(std::string_view word, const TextScanner& scanner) {
+    if (same_word(word, "ascii")) return PlyFormat::ascii;
+    if (same_word(word, "binary_little_endian")) return PlyFormat::little_endian;
+    if (!same_word(word, "binary_big_endian")) scanner.refuse_word(word, "ascii, binary_little_endian or binary_big_endian");
     return PlyFormat::big_endian;
 }
 
 }  // namespace
 
-PlyHeader read_ply_header(std::span<const std::byte> bytes, bool strict) {
+PlyHeader read_ply_header(std::span<const std::byte> bytes, Document& document) {
     PlyHeader header;
-    Lines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    std::string_view line;
+    TextScanner scanner(as_text(bytes), document);
     bool has_format = false;
-    lines.next(line);  // "ply"
+    scanner.word();  // "ply"
     for (;;) {
-        if (!lines.next(line)) refuse("", "the file ends before \"end_header\"");
-        const std::string where = fmt::format("line {}", lines.number());
-        Words words(line);
-        const std::string_view word = words.next();
-        if (word == "end_header") break;
-        if (word == "format") {
-            header.format = read_format(words.next(), where);
+        scanner.skip_line();
+        const std::string_view word = scanner.word();
+        if (word.empty()) refuse("", "the file ends before \"end_header\"");
+        if (same_word(word, "end_header") || (same_word(word, "end") && same_word(scanner.next_in_line(), "header"))) break;
+        if (same_word(word, "format")) {
+            header.format = read_format(scanner.word_in_line(), scanner);
             has_format = true;
-        } else if (word == "element") {
-            const std::string_view name = words.next();
-            const auto count = parse_whole<std::uint64_t>(words.next());
-            if (!count) refuse(where, "expected the element's name and its number");
-            if (header.elements.size() >= kMostElements) refuse(where, fmt::format("more than {} elements", kMostElements));
+        } else if (same_word(word, "element")) {
+            const std::string_view name = scanner.word_in_line(), number = scanner.word_in_line();
+            const auto count = TextScanner::parse_count(number);
+            if (!count) scanner.refuse_word(number, "the element's name and its number");
+            if (header.elements.size() >= kMostElements) refuse(scanner.where(), fmt::format("more than {} elements", kMostElements));
             header.elements.push_back({name, *count, {}});
-        } else if (word == "property") {
-            if (header.elements.empty()) refuse(where, "a property comes before any element");
+        } else if (same_word(word, "property")) {
+            if (header.elements.empty()) refuse(scanner.where(), "a property comes before any element");
             auto& properties = header.elements.back().properties;
-            if (properties.size() >= kMostProperties) refuse(where, fmt::format("more than {} properties", kMostProperties));
-            properties.push_back(read_property(words, where));
-        } else if (word == "comment") {
-            if (same_word(words.next(), "texturefile") && header.textures.size() < kMostProperties) header.textures.push_back(words.rest());
-        } else if (word != "obj_info" && !word.empty()) {
-            if (strict) refuse(where, fmt::format("expected element, property or end_header, found \"{}\"", printable(word, 40)));
-            if (header.unknown.size() < kMostElements)
-                header.unknown.push_back(fmt::format("{}: \"{}\" is not known", where, printable(word, 40)));
+            if (properties.size() >= kMostProperties) refuse(scanner.where(), fmt::format("more than {} properties", kMostProperties));
+            properties.push_back(read_property(scanner, header.format));
+        } else if (same_word(word, "comment")) {
+            if (same_word(scanner.next_in_line(), "texturefile") && header.textures.size() < kMostProperties) {
+                scanner.word_in_line();
+                header.textures.push_back(scanner.rest_of_line(true));
+            }
+        } else if (!same_word(word, "obj_info")) {
+            scanner.unknown(word, "element, property or end_header");
         }
     }
     if (!has_format) refuse("", "the header has no format");
-    header.body = std::as_bytes(std::span(lines.left()));
-    header.lines = lines.number();
+    scanner.skip_line();
+    scanner.warn();
+    header.lines = scanner.line();
+    header.body = scanner.left();
+    header.body.remove_prefix(header.body.starts_with("\r\n") ? 2 : header.body.empty() ? 0 : 1);
     return header;
 }
 

@@ -1,6 +1,7 @@
 // PLY: vertices and polygons, as text or binary of either byte order.
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/model_builder.hpp"
+#include "apps/io/models/model_colors.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/models/ply_values.hpp"
 #include "apps/io/models/polygon.hpp"
@@ -40,77 +41,66 @@ enum Slot : std::uint8_t {
     harmonic_2,
     opacity,
     scalar,
+    label,
     indices,
     texcoord,
     texnumber,
     kSlots
 };  // clang-format: off
 
+struct SlotName {
+    std::string_view name;
+    Slot slot;
+};
+constexpr SlotName kScalarNames[] = {{"x", px},
+                                     {"y", py},
+                                     {"z", pz},
+                                     {"nx", nx},
+                                     {"ny", ny},
+                                     {"nz", nz},
+                                     {"s", tu},
+                                     {"t", tv},
+                                     {"u", tu},
+                                     {"v", tv},
+                                     {"texture_u", tu},
+                                     {"texture_v", tv},
+                                     {"r", red},
+                                     {"g", green},
+                                     {"b", blue},
+                                     {"red", red},
+                                     {"green", green},
+                                     {"blue", blue},
+                                     {"diffuse_red", red},
+                                     {"diffuse_green", green},
+                                     {"diffuse_blue", blue},
+                                     {"rgb", packed},
+                                     {"rgba", packed},
+                                     {"f_dc_0", harmonic_0},
+                                     {"f_dc_1", harmonic_1},
+                                     {"f_dc_2", harmonic_2},
+                                     {"opacity", opacity},
+                                     {"intensity", scalar},
+                                     {"reflectance", scalar},
+                                     {"quality", scalar},
+                                     {"confidence", scalar},
+                                     {"curvature", scalar},
+                                     {"texnumber", texnumber},
+                                     {"label", label},
+                                     {"labels", label},
+                                     {"class", label},
+                                     {"classification", label},
+                                     {"category", label},
+                                     {"class_id", label},
+                                     {"semantic", label},
+                                     {"segment", label},
+                                     {"instance", label},
+                                     {"object_id", label}};
+constexpr SlotName kListNames[] = {{"vertex_indices", indices}, {"vertex_index", indices}, {"texcoord", texcoord}};
+
 Slot slot_of(std::string_view name, bool is_list) {
-    struct Name {
-        std::string_view name;
-        Slot slot;
-    };
-    static constexpr Name kScalars[] = {{"x", px},
-                                        {"y", py},
-                                        {"z", pz},
-                                        {"nx", nx},
-                                        {"ny", ny},
-                                        {"nz", nz},
-                                        {"s", tu},
-                                        {"t", tv},
-                                        {"u", tu},
-                                        {"v", tv},
-                                        {"texture_u", tu},
-                                        {"texture_v", tv},
-                                        {"r", red},
-                                        {"g", green},
-                                        {"b", blue},
-                                        {"red", red},
-                                        {"green", green},
-                                        {"blue", blue},
-                                        {"diffuse_red", red},
-                                        {"diffuse_green", green},
-                                        {"diffuse_blue", blue},
-                                        {"rgb", packed},
-                                        {"rgba", packed},
-                                        {"f_dc_0", harmonic_0},
-                                        {"f_dc_1", harmonic_1},
-                                        {"f_dc_2", harmonic_2},
-                                        {"opacity", opacity},
-                                        {"intensity", scalar},
-                                        {"reflectance", scalar},
-                                        {"quality", scalar},
-                                        {"confidence", scalar},
-                                        {"curvature", scalar},
-                                        {"texnumber", texnumber}};
-    static constexpr Name kLists[] = {{"vertex_indices", indices}, {"vertex_index", indices}, {"texcoord", texcoord}};
-    for (const Name& known : is_list ? std::span<const Name>(kLists) : std::span<const Name>(kScalars))
-        if (known.name == name) return known.slot;
+    for (const SlotName& known : is_list ? std::span<const SlotName>(kListNames) : std::span<const SlotName>(kScalarNames))
+        if (same_word(name, known.name)) return known.slot;
     return !is_list && name.starts_with("scalar_") ? scalar : kSlots;  // as CloudCompare writes them
-}
-
-/// Linear light of whole sRGB codes.
-float linear_of_code(std::uint8_t code) {
-    static const std::array<float, 256> kLinear = [] {
-        std::array<float, 256> table{};
-        for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear_color(static_cast<double>(i) / 255.0);
-        return table;
-    }();
-    return kLinear[code];
-}
-
-/// A colour of the map viridis, by a value from 0 to 1.
-Vec4f viridis(double t) {
-    static constexpr double kCodes[9][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
-                                            {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
-    const double at = std::clamp(t, 0.0, 1.0) * 8;
-    const std::size_t below = std::min<std::size_t>(static_cast<std::size_t>(at), 7);
-    const double weight = at - static_cast<double>(below);
-    const auto channel = [&](std::size_t c) {
-        return linear_color((kCodes[below][c] + weight * (kCodes[below + 1][c] - kCodes[below][c])) / 255.0);
-    };
-    return {channel(0), channel(1), channel(2), 1};
 }
 
 /// Properties of an element, by their slots.
@@ -129,15 +119,27 @@ struct Layout {
             type[slot] = p.type;
             if (slot == scalar) scalar_name = p.name;
         }
+        if (has[indices]) return;
+        // The list of corners under another name: the first list of whole numbers.
+        for (std::size_t p = 0; p < slots.size(); ++p) {
+            const PlyProperty& list = element.properties[p];
+            if (!list.is_list || !is_whole(list.type) || slots[p] != kSlots) continue;
+            slots[p] = indices;
+            has[indices] = true;
+            return;
+        }
     }
     [[nodiscard]] bool has_channels() const { return has[red] && has[green] && has[blue]; }
     /// Of 3D Gaussians: the part of their light that is the same from all sides.
     [[nodiscard]] bool is_splat() const { return has[harmonic_0] && has[harmonic_1] && has[harmonic_2] && has[opacity]; }
-    [[nodiscard]] bool has_color() const { return has_channels() || has[packed] || is_splat(); }
+    [[nodiscard]] bool has_color() const { return has_channels() || has[packed] || is_splat() || has_label(); }
+    /// Classes or objects by number, where nothing else has colours.
+    [[nodiscard]] bool has_label() const { return has[label] && !has_channels() && !has[packed] && !is_splat(); }
     /// In the unit of the file; alpha is a share.
     [[nodiscard]] Vec4f color(const std::array<double, kSlots + 1>& value) const {
         const auto of = [&](Slot slot) { return static_cast<float>(value[slot]); };
         if (has_channels()) return {of(red), of(green), of(blue), 1};
+        if (has_label()) return label_color(value[label]);
         if (has[packed]) {  // 0xRRGGBB, which the Point Cloud Library keeps as the bits of a float
             const bool is_float = type[packed] == PlyType::f32 || type[packed] == PlyType::f64;
             const auto whole = static_cast<std::uint32_t>(static_cast<std::int64_t>(
@@ -150,45 +152,32 @@ struct Layout {
         const double alpha = 1.0 / (1.0 + exp_of(-std::clamp(value[opacity], -80.0, 80.0)));
         return {share(harmonic_0), share(harmonic_1), share(harmonic_2), alpha >= 0 && alpha <= 1 ? static_cast<float>(alpha) : 0.0f};
     }
-    /// Makes linear light of colours as color() gives them. The number that stands for 1 follows from their type and the largest one.
+    /// Makes linear light of colours as color() gives them.
     void make_linear(std::span<Vec4f> colors) const {
-        const bool is_whole = has_channels() ? type[red] != PlyType::f32 && type[red] != PlyType::f64 : has[packed];
-        float most = 0;
-        for (const Vec4f& c : colors)
-            for (const float value : {c.x, c.y, c.z})
-                if (value > most && shading::finite(value)) most = value;
-        constexpr float kWhite = 2.0f;  // rounding, and light of high range, may exceed 1
-        const double unit = has_channels() && type[red] == PlyType::u8 ? 255 : most <= kWhite && !is_whole ? 1 : most <= 255 ? 255 : 65535;
-        const auto linear = [&](float value) {
-            if (unit == 255 && value >= 0 && value <= 255)
-                if (const auto code = static_cast<std::uint8_t>(value); static_cast<float>(code) == value) return linear_of_code(code);
-            return linear_color(static_cast<double>(value) / unit);
-        };
-        for (Vec4f& c : colors) c = {linear(c.x), linear(c.y), linear(c.z), c.w};
+        if (has_label()) return;
+        const bool are_bytes = has_channels() && type[red] == PlyType::u8, are_whole = has_channels() ? is_whole(type[red]) : has[packed];
+        detail::make_linear(colors, are_bytes ? 255 : unit_of_colors(colors, are_whole));
     }
 };
 
 class PlyReader {
 public:
     PlyReader(std::span<const std::byte> bytes, ModelBuilder& builder)
-        : header_(read_ply_header(bytes, builder.options().strict)), values_(header_, builder.options().strict), builder_(builder) {
-        for (const std::string& line : header_.unknown) builder_.document().warn(line);
-    }
+        : header_(read_ply_header(bytes, builder.document())), values_(header_, builder.document()), builder_(builder) {}
 
     void read() {
-        const auto named = [](std::string_view name) { return [name](const PlyElement& e) { return e.name == name && e.count > 0; }; };
-        const auto has = [&](std::string_view name) { return std::any_of(header_.elements.begin(), header_.elements.end(), named(name)); };
-        is_cloud_ = has("vertex") && !has("face") && !has("tristrips");
+        name_elements();
+        const auto find = [&](const auto& is) { return std::find_if(header_.elements.begin(), header_.elements.end(), is); };
+        const auto vertices = find([](const PlyElement& e) { return e.name == kVertex && e.count > 0; });
+        const auto corners = find([](const PlyElement& e) { return (e.name == kFace || e.name == kStrips) && e.count > 0; });
+        is_cloud_ = vertices != header_.elements.end() && corners == header_.elements.end();
         // Faces may come before their vertices. Then these are read first.
-        const auto vertices = std::find_if(header_.elements.begin(), header_.elements.end(), named("vertex"));
-        const auto corners = std::find_if(header_.elements.begin(), header_.elements.end(),
-                                          [](const PlyElement& e) { return e.name == "face" || e.name == "tristrips"; });
         if (vertices != header_.elements.end()) {
             const PlyValues all = values_;
             try {
                 for (auto element = header_.elements.begin(); element != vertices; ++element) skip(*element);
                 read_vertices(*vertices);
-            } catch (const PlyCutOff&) {
+            } catch (const CutOff&) {
                 note_cut_off(*vertices, soup_.positions.size());
             }
             if (corners < vertices) values_ = all;
@@ -200,13 +189,14 @@ public:
                     skip(*element);
                 else
                     read_others(*element);
-            } catch (const PlyCutOff&) {
+            } catch (const CutOff&) {
                 note_cut_off(*element, rows_);
                 break;
             }
         }
         is_cloud_ = is_cloud_ || (cut_off_ && soup_.position_of.empty() && !soup_.positions.empty());
         Document& document = builder_.document();
+        values_.warn();
         if (values_.long_rows() > 0)
             document.warn(fmt::format("{} lines have more values than the header says, which are passed over", values_.long_rows()));
         if (values_.has_more()) document.warn("there is more behind the last element, which is not drawn");
@@ -250,12 +240,29 @@ public:
 
 private:
     using Row = std::array<double, kSlots + 1>;
+    static constexpr std::string_view kVertex = "vertex", kFace = "face", kStrips = "tristrips";
+
+    /// Elements under other names: points are what has x, y and z, faces what has a list of whole numbers.
+    void name_elements() {
+        const auto is_named = [&](std::string_view name) {
+            return std::any_of(header_.elements.begin(), header_.elements.end(), [&](const PlyElement& e) { return e.name == name; });
+        };
+        const bool has_vertices = is_named(kVertex), has_faces = is_named(kFace) || is_named(kStrips);
+        for (PlyElement& element : header_.elements) {
+            const Layout layout(element);
+            if (!has_vertices && layout.has[px] && layout.has[py] && layout.has[pz] && !is_named(kVertex))
+                element.name = kVertex;
+            else if (!has_faces && layout.has[indices] && element.name != kVertex && !is_named(kFace))
+                element.name = kFace;
+        }
+    }
 
     /// Says that an element is not there to its end.
     void note_cut_off(const PlyElement& element, std::size_t there) {
         cut_off_ = true;
-        builder_.document().warn(
-            fmt::format("it was cut off: {} of {} elements \"{}\" are there", there, element.count, printable(element.name, 40)));
+        builder_.document().go_on_without({{ErrorCode::bad_input, fmt::format("it was cut off: {} of {} elements \"{}\" are there", there,
+                                                                              element.count, printable(element.name, 40))}},
+                                          "the rest is left out");
     }
 
     /// Colours of points that have a number instead.
@@ -273,16 +280,11 @@ private:
             fmt::format("has no colours: drawn by its property {}, from {} (dark blue) to {} (yellow)", printable(name, 40), least, most));
     }
 
-    /// Some programs write 0 0 0 where there is no normal.
-    void drop_zero_normals() {
-        const auto zeros = static_cast<std::size_t>(std::count(soup_.normals.begin(), soup_.normals.end(), Vec3f{}));
-        if (zeros > soup_.normals.size() / 10) soup_.normals.clear();
-    }
-
     /// Surveys have z up: clouds that are flat, and those that lie as far from the origin along x or y as maps do, but not along z. Strays
-    /// do not count: of each axis, the middle nine tenths.
+    /// do not count: of each axis, the middle nine tenths. Coordinates in double and labels are a survey's: then less flatness will do
+    /// than elsewhere, where a relief may stand. What has no height at all stands too, as a drawing does.
     void note_flatness() {
-        constexpr double kFlat = 0.35, kFar = 100.0, kHeight = 0.1;
+        constexpr double kFlatSurvey = 0.35, kFlat = 0.2, kFar = 100.0, kHeight = 0.1;
         constexpr std::size_t kSampled = 4096;
         std::array<double, 3> extents{}, middle{};
         const std::size_t step = std::max<std::size_t>(1, soup_.positions.size() / kSampled);
@@ -291,62 +293,31 @@ private:
             at.clear();
             for (std::size_t i = 0; i < soup_.positions.size(); i += step) {
                 const Vec3d& p = soup_.positions[i];
-                at.push_back(axis == 0 ? p.x : axis == 1 ? p.y : p.z);
+                if (fits_float(p)) at.push_back(axis == 0 ? p.x : axis == 1 ? p.y : p.z);
             }
+            if (at.empty()) return;
             std::sort(at.begin(), at.end());
             extents[axis] = at[at.size() - 1 - at.size() / 20] - at[at.size() / 20];
             middle[axis] = std::abs(at[at.size() / 2]);
         }
         const double away = std::max(middle[0], middle[1]);
         const bool on_map = away > kFar * std::max({extents[0], extents[1], extents[2]}) && middle[2] < kHeight * away;
-        lies_flat_ = on_map || (is_survey_ && extents[2] < kFlat * std::min(extents[0], extents[1]));
+        lies_flat_ = on_map || (extents[2] > 0 && extents[2] < (is_survey_ ? kFlatSurvey : kFlat) * std::min(extents[0], extents[1]));
         if (lies_flat_ && !builder_.options().up)
             builder_.document().warn(on_map ? "a cloud that lies as on a map is drawn with z up"
                                             : "a cloud that is flat along z is drawn lying, with z up");
     }
 
-    /// Vertices without faces are points. Those without normals are not lit.
+    /// Vertices without faces are points.
     void finish_cloud() {
-        Mesh mesh;
-        mesh.topology = Topology::points;
-        // Of a file that was cut off before its faces.
-        if (soup_.normals.size() != soup_.positions.size()) soup_.normals.clear();
-        if (soup_.colors.size() != soup_.positions.size()) soup_.colors.clear();
-        drop_zero_normals();
-        builder_.take_entries<std::uint32_t>(soup_.positions.size());
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < soup_.positions.size(); ++i) {
-            if (!fits_float(soup_.positions[i])) continue;
-            soup_.positions[kept] = soup_.positions[i];
-            if (!soup_.normals.empty()) soup_.normals[kept] = soup_.normals[i];
-            if (!soup_.colors.empty()) soup_.colors[kept] = soup_.colors[i];
-            ++kept;
-        }
-        if (const std::size_t lost = soup_.positions.size() - kept; lost > 0)
-            builder_.document().warn(fmt::format("{} points with coordinates that are not finite are left out", lost));
-        soup_.positions.resize(kept);
-        if (!soup_.normals.empty()) soup_.normals.resize(kept);
-        if (!soup_.colors.empty()) soup_.colors.resize(kept);
-        if (kept == 0) return;
         note_flatness();
-        soup_.position_of.resize(kept);
-        std::iota(soup_.position_of.begin(), soup_.position_of.end(), 0u);
-        const Vec3d origin = move_near(soup_, builder_.options().recentre);
-        mesh.positions = std::move(soup_.points);
-        mesh.normals = std::move(soup_.normals);
-        mesh.colors = std::move(soup_.colors);
-        mesh.indices = std::move(soup_.position_of);
-        mesh.material = mesh.colors.empty() ? builder_.grey_material() : builder_.colored_material();
         if (is_splat_) {
-            mesh.normals.clear();
-            builder_.loaded().scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode = AlphaMode::blend;
+            soup_.normals.clear();
             builder_.document().warn(
                 "holds 3D Gaussians: drawn as points with their colours and opacities, without sizes, shapes and "
                 "colours that change with the view");
         }
-        if (mesh.normals.empty()) builder_.loaded().scene.materials[static_cast<std::size_t>(mesh.material)].unlit = true;
-        const int index = builder_.add_mesh(std::move(mesh), origin);
-        builder_.place({&index, 1}, "");
+        builder_.place_points(std::move(soup_), is_splat_ ? AlphaMode::blend : AlphaMode::opaque);
     }
 
     /// Reads an element's values: scalars into `row`, known lists into lists_. Others are skipped.
@@ -360,15 +331,20 @@ private:
             const PlyProperty& property = element.properties[p];
             const Slot slot = layout.slots[p];
             if (!property.is_list) {
-                row[slot] = values_.next(property.type);
+                if (slot == kSlots)
+                    values_.skip(property.type);
+                else
+                    row[slot] = values_.next(property.type);
                 continue;
             }
             std::vector<double>* list = slot == indices ? &polygon_ : slot == texcoord ? &texcoords_ : nullptr;
             std::size_t left = values_.next_length(property);
             if (list != nullptr) list->clear();
             for (; left > 0; --left) {
-                const double value = values_.next(property.type);
-                if (list != nullptr) list->push_back(value);
+                if (list == nullptr)
+                    values_.skip(property.type);
+                else
+                    list->push_back(values_.next(property.type));
             }
         }
     }
@@ -385,7 +361,7 @@ private:
         builder_.take_entries<Vec3d>(count);
         builder_.take_entries<Vec3f>(count * ((has_normal ? 1 : 0) + (vertex_has_uv_ ? 1 : 0) + (has_color ? 2 : 0) + (by_scalar ? 1 : 0)));
         vertex_has_normal_ = has_normal;
-        is_survey_ = layout.type[px] == PlyType::f64;
+        is_survey_ = layout.type[px] == PlyType::f64 || layout.has[label];
         vertex_has_color_ = has_color;
         is_splat_ = is_cloud_ && layout.is_splat() && !layout.has_channels() && !layout.has[packed];
         Row row{};
@@ -393,7 +369,7 @@ private:
             if (i % 65536 == 0) check_time();
             try {
                 read_row(element, layout, row);
-            } catch (const PlyCutOff&) {
+            } catch (const CutOff&) {
                 note_cut_off(element, soup_.positions.size());
                 break;
             }
@@ -407,7 +383,15 @@ private:
             if (has_color) soup_.colors.push_back(layout.color(row));
         }
         if (has_color) layout.make_linear(soup_.colors);
+        if (layout.has_label()) builder_.document().warn("has no colours: drawn by its labels, a colour for each");
+        if (are_no_colors(ModelFormat::ply, soup_.colors)) drop_colors();
         if (by_scalar) color_by_scalar(layout.scalar_name);
+    }
+
+    void drop_colors() {
+        soup_.colors.clear();
+        vertex_has_color_ = false;
+        builder_.document().warn("its colours are all black, as where none were set: drawn in grey");
     }
 
     /// Goes past an element, without looking at its values.
@@ -426,7 +410,7 @@ private:
         if (element.properties.empty()) return;
         const std::uint64_t count = values_.held(element);
         const Layout layout(element);
-        const bool is_face = element.name == "face", is_strips = element.name == "tristrips";
+        const bool is_face = element.name == kFace, is_strips = element.name == kStrips;
         if ((is_face || is_strips) && !layout.has[indices])
             refuse(fmt::format("element {}", element.name), "expected a list vertex_indices");
         if (!is_face && !is_strips && element.count > 0)
@@ -441,7 +425,7 @@ private:
                 if (is_strips) add_strips();
                 if (is_face) add_face(layout, row);
             }
-        } catch (const PlyCutOff&) {
+        } catch (const CutOff&) {
             finish_colors();
             throw;
         }
@@ -543,7 +527,7 @@ LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_d
 
 std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     ModelBuilder builder(bytes, base_dir, options, "PLY");
-    for (const std::string_view name : read_ply_header(bytes, options.strict).textures) builder.add_file(name);
+    for (const std::string_view name : read_ply_header(bytes, builder.document()).textures) builder.add_file(name);
     return builder.finish({}).info.files;
 }
 

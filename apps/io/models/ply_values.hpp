@@ -2,8 +2,8 @@
 // Numbers of a PLY file's body: words of text, or binary of either byte order.
 #include "apps/io/files/load_failure.hpp"
 #include "apps/io/files/text.hpp"
-#include "apps/io/models/model_text.hpp"
 #include "apps/io/models/ply_header.hpp"
+#include "apps/io/models/text_scanner.hpp"
 
 #include <fmt/format.h>
 
@@ -11,97 +11,103 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace halflit::io::detail {
 
-/// Thrown at the end of a file that was cut off, unless strict: what came before is drawn.
-struct PlyCutOff {};
-
 /// Values of the body, one after another.
 class PlyValues {
 public:
-    PlyValues(const PlyHeader& header, bool strict)
-        : strict_(strict),
+    PlyValues(const PlyHeader& header, Document& document)
+        : strict_(document.options.strict),
           format_(header.format),
-          text_({reinterpret_cast<const char*>(header.body.data()), header.body.size()}),
-          line_(header.lines) {}
+          words_(header.body, document, "", false, header.lines + 1),
+          binary_(header.body) {
+        words_.expect_next("another element");
+    }
 
-    void begin_row() { words_ = 0; }
+    void begin_row() { taken_ = 0; }
     /// Passes over what the line has beyond the row of a text, if that is less than another row.
     void end_row() {
         if (strict_ || format_ != PlyFormat::ascii) return;
-        std::size_t at = 0, more = 0;
-        for (bool in_word = false; at < text_.size() && !is_line_end(text_[at]); ++at) {
-            if (!is_blank(text_[at]) && !in_word) ++more;
-            in_word = !is_blank(text_[at]);
-            if (more >= words_) return;
-        }
-        if (more == 0) return;
-        text_.remove_prefix(at);
+        const std::size_t more = words_.words_in_line(taken_);
+        if (more == 0 || more >= taken_) return;
+        words_.skip_line();
         ++long_rows_;
     }
     [[nodiscard]] std::size_t long_rows() const { return long_rows_; }
 
-    double next(PlyType type) { return format_ == PlyFormat::ascii ? next_word() : next_binary(type); }
+    double next(PlyType type) {
+        if (format_ != PlyFormat::ascii) return next_binary(type);
+        find_word();
+        return words_.number();
+    }
+    /// The next value, which is not used and need not be a number.
+    void skip(PlyType type) {
+        if (format_ != PlyFormat::ascii) return void(next_binary(type));
+        find_word();
+        words_.word();
+    }
 
     /// The length of a list, whose entries must be there.
     std::size_t next_length(const PlyProperty& list) {
         const double length = next(list.count_type);
-        const std::size_t least = format_ == PlyFormat::ascii ? 1 : size_of(list.type);
+        const bool is_text = format_ == PlyFormat::ascii;
         if (!(length >= 0)) refuse(where(), fmt::format("a list's length is {}", length));
-        if (length > static_cast<double>(text_.size() / least + 1)) refuse_end();
+        if (length > static_cast<double>((is_text ? words_.left().size() : binary_.size() / size_of(list.type)) + 1)) words_.end();
         return static_cast<std::size_t>(length);
     }
     /// The number of elements, or as many as the file can hold at most; if strict, refuses a file that cannot hold them.
     [[nodiscard]] std::uint64_t held(const PlyElement& element) const {
+        const bool is_text = format_ == PlyFormat::ascii;
         std::size_t least = 0;  // bytes
-        for (const PlyProperty& p : element.properties)
-            least += format_ == PlyFormat::ascii ? 1 : size_of(p.is_list ? p.count_type : p.type);
-        if (least == 0 || element.count <= text_.size() / least) return element.count;
+        for (const PlyProperty& p : element.properties) least += is_text ? 1 : size_of(p.is_list ? p.count_type : p.type);
+        const std::size_t left = is_text ? words_.left().size() : binary_.size();
+        if (least == 0 || element.count <= left / least) return element.count;
         if (strict_)
             refuse("",
                    fmt::format("{} elements \"{}\" do not fit into the file: it was cut off", element.count, printable(element.name, 40)));
-        return text_.size() / least + 1;  // the last of which ends with PlyCutOff
+        return left / least + 1;  // the last of which ends with CutOff
     }
-    /// Something follows the last value, besides ends of lines.
-    [[nodiscard]] bool has_more() const {
-        const auto counts = [](char c) { return !is_blank(c) && !is_line_end(c); };
-        return std::any_of(text_.begin(), text_.end(), counts);
+    /// Something follows the last value, besides white space and comments.
+    [[nodiscard]] bool has_more() {
+        if (format_ != PlyFormat::ascii)
+            return std::any_of(binary_.begin(), binary_.end(), [](char c) { return !is_blank(c) && !is_line_end(c); });
+        try {
+            find_word();
+        } catch (const CutOff&) {
+            return false;
+        } catch (const LoadFailure&) {
+            return false;
+        }
+        return true;
     }
-    [[nodiscard]] std::string where() const { return format_ == PlyFormat::ascii ? fmt::format("line {}", line_ + 1) : ""; }
+    [[nodiscard]] std::string where() const { return format_ == PlyFormat::ascii ? words_.where() : ""; }
+    /// Warns of words that are no numbers.
+    void warn() { words_.warn(); }
 
 private:
-    [[noreturn]] void refuse_end() const {
-        if (!strict_) throw PlyCutOff{};
-        refuse(where(), "the file ends before its last element: it was cut off");
-    }
-
-    double next_word() {
-        ++words_;
-        while (!text_.empty() && (is_blank(text_.front()) || is_line_end(text_.front()))) {
-            if (text_.front() == '\n') ++line_;
-            text_.remove_prefix(1);
+    /// Goes to the next word that is not of a comment, which some programs write into the body.
+    void find_word() {
+        for (;; words_.skip_line()) {
+            if (!words_.go_to_word()) words_.end();
+            if (!words_.is_at_line_begin() || lower(words_.left()[0]) < 'a') break;
+            const std::string_view word = words_.next_in_line();
+            if (!same_word(word, "comment") && !same_word(word, "obj_info")) break;
         }
-        std::size_t length = 0;
-        while (length < text_.size() && !is_blank(text_[length]) && !is_line_end(text_[length])) ++length;
-        if (length == 0) refuse_end();
-        const std::string_view word = text_.substr(0, length);
-        text_.remove_prefix(length);
-        const std::optional<double> value =
-            strict_ ? parse_real<double>(word) : parse_loosely(word);  // also of floats: surveys write more digits than those hold
-        if (!value) refuse(where(), fmt::format("expected a number, found \"{}\"", printable(word, 40)));
-        return *value;
+        ++taken_;
     }
 
     template <class T>
     T take_bytes() {
-        if (text_.size() < sizeof(T)) refuse_end();
+        if (binary_.size() < sizeof(T)) {
+            if (strict_) refuse("", "the file ends before its last element: it was cut off");
+            throw CutOff{};
+        }
         std::array<char, sizeof(T)> bytes;
-        std::memcpy(bytes.data(), text_.data(), sizeof(T));
-        text_.remove_prefix(sizeof(T));
+        std::memcpy(bytes.data(), binary_.data(), sizeof(T));
+        binary_.remove_prefix(sizeof(T));
         if ((format_ == PlyFormat::big_endian) != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
         return std::bit_cast<T>(bytes);
     }
@@ -119,6 +125,10 @@ private:
                 return take_bytes<std::int32_t>();
             case PlyType::u32:
                 return take_bytes<std::uint32_t>();
+            case PlyType::i64:
+                return static_cast<double>(take_bytes<std::int64_t>());
+            case PlyType::u64:
+                return static_cast<double>(take_bytes<std::uint64_t>());
             case PlyType::f32:
                 return take_bytes<float>();
             case PlyType::f64:
@@ -129,9 +139,9 @@ private:
 
     bool strict_;
     PlyFormat format_;
-    std::size_t words_ = 0, long_rows_ = 0;
-    std::string_view text_;
-    std::size_t line_;
+    std::size_t taken_ = 0, long_rows_ = 0;
+    TextScanner words_;
+    std::string_view binary_;
 };
 
 }  // namespace halflit::io::detail

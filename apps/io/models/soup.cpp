@@ -4,6 +4,7 @@
 #include "apps/io/models/crease_normals.hpp"
 #include "sh/place_table.hpp"
 #include "sh/time_limit.hpp"
+#include "sh/vec3d.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <algorithm>
@@ -148,10 +149,44 @@ private:
     std::vector<std::uint32_t> vertex_of_;  ///< of corners that a mesh has, and that are the first of their vertex: its number in the mesh
 };
 
-/// A normal that the renderer can use; others are replaced by computed ones.
-void forget_bad_normals(Soup& soup) {
+/// Cosine between a triangle and a corner's normal below which the normal is against it by itself: smooth normals of coarse meshes may lean
+/// over an edge, but not so far.
+constexpr double kAgainst = -0.3;
+
+/// Normals that the renderer cannot use are replaced by computed ones. Those of a triangle that point away from the side which its corners
+/// go around counter-clockwise are turned, as mirrored parts have them: surfaces are drawn from both sides, and lit on the side that is
+/// seen, by that side's normals. A triangle with normals of both sides takes those of most.
+void mend_normals(Soup& soup) {
     for (std::uint32_t& n : soup.normal_of)
         if (n != kNone && (!shading::finite(soup.normals[n]) || soup.normals[n] == Vec3f{})) n = kNone;
+    std::vector<std::uint32_t> turned;  // of a normal: the number of its opposite
+    TimeCheck check;
+    for (std::size_t t = 0; 3 * t < soup.normal_of.size(); ++t) {
+        check();
+        const auto point = [&](std::size_t c) { return to_double(soup.points[soup.position_of[3 * t + c]]); };
+        const Vec3d face = cross(point(1) - point(0), point(2) - point(0));
+        const double size = length(face);
+        double cosine[3] = {0, 0, 0};  // 0 too where a corner has no normal
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t n = soup.normal_of[3 * t + c];
+            if (n == kNone) continue;
+            const Vec3d normal = to_double(soup.normals[n]);
+            cosine[c] = dot(normal, face) / (length(normal) * size);
+        }
+        const bool all = cosine[0] + cosine[1] + cosine[2] < 0;
+        if (!all && !(std::min({cosine[0], cosine[1], cosine[2]}) < kAgainst)) continue;
+        turned.resize(soup.normals.size(), kNone);
+        for (std::size_t c = 0; c < 3; ++c) {
+            std::uint32_t& n = soup.normal_of[3 * t + c];
+            if (n == kNone || (all ? cosine[c] > -kAgainst : cosine[c] >= kAgainst)) continue;
+            if (turned[n] == kNone) {
+                turned[n] = static_cast<std::uint32_t>(soup.normals.size());
+                const Vec3f normal = soup.normals[n];
+                soup.normals.push_back({-normal.x, -normal.y, -normal.z});
+            }
+            n = turned[n];
+        }
+    }
 }
 
 }  // namespace
@@ -208,7 +243,7 @@ std::vector<SoupMesh> make_meshes(Soup&& soup, double crease_deg, int threads, s
         for (std::uint32_t& position : soup.position_of) position = place[position];
     }
     if (soup.position_of.empty()) return meshes;
-    forget_bad_normals(soup);
+    mend_normals(soup);
     std::vector<std::uint32_t> vertices;
     {
         const CornersOfPlaces corners(soup.position_of, soup.points.size());

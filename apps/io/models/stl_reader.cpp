@@ -3,7 +3,9 @@
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/model_builder.hpp"
 #include "apps/io/models/model_readers.hpp"
-#include "apps/io/models/model_text.hpp"
+#include "apps/io/models/polygon.hpp"
+#include "apps/io/models/text_scanner.hpp"
+#include "apps/io/models/writer_habits.hpp"
 #include "sh/place_table.hpp"
 #include "sh/time_limit.hpp"
 
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 
 namespace halflit::io::detail {
@@ -21,88 +24,158 @@ constexpr std::size_t kHeader = 84, kRecord = 50;  // bytes: a title and the num
 
 // ---- text --------------------------------------------------------------------------------------------------------------
 
+/// Reads words wherever lines end: corners count, and the ends of facets. Normals are not used: they follow from the corners, and writers
+/// leave them out or get them wrong.
 class StlText {
 public:
-    StlText(std::string_view text, ModelBuilder& builder) : lines_(text), words_(""), builder_(builder) {}
+    StlText(std::string_view text, ModelBuilder& builder) : scanner_(text, builder.document()), builder_(builder) {}
 
     Soup read() {
-        bool open = false;  // between solid and endsolid
-        for (std::string_view word = next(); !word.empty(); word = next()) {
-            if (same_word(word, "solid") || same_word(word, "endsolid")) {
-                open = lower(word[0]) == 's';
-                words_ = Words("");  // the rest of the line is a name
-            } else if (same_word(word, "facet")) {
-                const std::size_t before = soup_.position_of.size();
-                try {
-                    facet();
-                } catch (const LoadFailure& failure) {
-                    if (builder_.options().strict || failure.error.code != ErrorCode::bad_input || !next().empty() || before == 0) throw;
-                    builder_.document().warn("it was cut off: its last triangle is left out");
-                    return std::move(soup_);
-                }
-            } else {
-                refuse_word(word, "facet or endsolid");
-            }
+        scanner_.expect_next("endsolid");
+        try {
+            for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) read_word(word);
+            if (builder_.options().strict && last_ >= Keyword::facet && last_ < Keyword::endfacet)
+                scanner_.refuse_word("", kAfter[index(last_)]);
+        } catch (const CutOff&) {
+            corners_.clear();
+            builder_.document().go_on_without({{ErrorCode::bad_input, "it was cut off"}}, "its last triangle is left out");
         }
-        if (open) builder_.document().warn("ends without \"endsolid\": triangles may be missing");
+        end_facet();
+        if (last_ != Keyword::endsolid && last_ != Keyword::none)
+            builder_.document().warn("ends without \"endsolid\": triangles may be missing");
+        scanner_.warn();
+        if (soup_.color_of.size() < soup_.position_of.size() && !soup_.color_of.empty())
+            soup_.color_of.resize(soup_.position_of.size(), kNone);
         return std::move(soup_);
     }
 
 private:
-    /// The next word of the text; empty at its end.
-    std::string_view next() {
-        for (;;) {
-            if (const std::string_view word = words_.next(); !word.empty()) return word;
-            std::string_view line;
-            if (!lines_.next(line)) return {};
-            if (lines_.number() % 65536 == 0) check_time();
-            words_ = Words(line);
+    enum class Keyword : std::uint8_t { none, solid, facet, outer, vertex, endloop, endfacet, endsolid, count };
+    static constexpr std::size_t index(Keyword keyword) { return static_cast<std::size_t>(keyword); }
+    /// What may come next, for the strict rules.
+    static constexpr const char* kAfter[] = {"solid",    "facet or endsolid", "outer loop", "vertex", "vertex or endloop",
+                                             "endfacet", "facet or endsolid", "solid"};
+
+    void read_word(std::string_view word) {
+        switch (lower(word[0])) {
+            case 'v':
+                if (same_word(word, "vertex")) return read_vertex();
+                break;
+            case 'f':
+                if (same_word(word, "facet")) return read_facet();
+                break;
+            case 'e':
+                if (same_word(word, "endloop")) return end_part(Keyword::endloop);
+                if (same_word(word, "endfacet")) return end_part(Keyword::endfacet);
+                if (same_word(word, "endsolid")) return read_name(Keyword::endsolid);
+                if (same_word(word, "end")) return read_end(word);
+                break;
+            case 'o':
+                if (same_word(word, "outer")) return begin_part(word, Keyword::outer);
+                break;
+            case 'l':
+                if (same_word(word, "loop")) return;
+                break;
+            case 's':
+                if (same_word(word, "solid")) return read_name(Keyword::solid);
+                break;
+            case 'c':
+                if (same_word(word, "color")) return read_color(word);
+                break;
+            default:
+                if (parse_loosely(word) && !builder_.options().strict) return;  // of a normal
+        }
+        scanner_.unknown(word, kAfter[index(last_)]);
+    }
+    void begin_part(std::string_view word, Keyword keyword) {
+        static constexpr Keyword kBefore[][2] = {{Keyword::none, Keyword::none},       {Keyword::none, Keyword::endsolid},
+                                                 {Keyword::solid, Keyword::endfacet},  {Keyword::facet, Keyword::facet},
+                                                 {Keyword::outer, Keyword::vertex},    {Keyword::vertex, Keyword::vertex},
+                                                 {Keyword::endloop, Keyword::endloop}, {Keyword::solid, Keyword::endfacet}};
+        const auto& before = kBefore[index(keyword)];
+        if (builder_.options().strict && last_ != before[0] && last_ != before[1]) scanner_.refuse_word(word, kAfter[index(last_)]);
+        last_ = keyword;
+    }
+    void end_part(Keyword keyword) {
+        begin_part(keyword == Keyword::endloop ? "endloop" : "endfacet", keyword);
+        end_facet();
+    }
+    /// "end loop", "end facet", "end solid".
+    void read_end(std::string_view word) {
+        if (builder_.options().strict) scanner_.refuse_word(word, kAfter[index(last_)]);
+        end_facet();
+        const std::string_view what = scanner_.word_in_line();
+        if (same_word(what, "solid")) read_name(Keyword::endsolid);
+    }
+    /// A name up to the end of the line, in which the first facet may stand.
+    void read_name(Keyword keyword) {
+        begin_part(keyword == Keyword::solid ? "solid" : "endsolid", keyword);
+        end_facet();
+        color_ = kNone;
+        if (builder_.options().strict) return scanner_.skip_line();
+        for (std::string_view word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line())
+            if (same_word(word, "facet") && scanner_.words_in_line(1) > 0) return read_facet();
+    }
+    void read_facet() {
+        begin_part("facet", Keyword::facet);
+        end_facet();
+        if (!builder_.options().strict) return pass_normal();
+        if (const std::string_view word = scanner_.word(); !same_word(word, "normal")) scanner_.refuse_word(word, "normal");
+        for (int i = 0; i < 3; ++i) scanner_.number();
+    }
+    /// The words between "facet" and the next keyword, on the same line.
+    void pass_normal() {
+        for (int i = 0; i < 4; ++i) {
+            const std::string_view word = scanner_.next_in_line();
+            if (word.empty() || same_word(word, "outer") || same_word(word, "vertex") || same_word(word, "loop")) return;
+            scanner_.word_in_line();
         }
     }
-    [[noreturn]] void refuse_word(std::string_view found, std::string_view expected) const {
-        refuse(fmt::format("line {}", lines_.number()), found.empty()
-                                                            ? fmt::format("expected {}, the file ends: it was cut off", expected)
-                                                            : fmt::format("expected {}, found \"{}\"", expected, printable(found, 40)));
+    void read_vertex() {
+        begin_part("vertex", Keyword::vertex);
+        builder_.take_entries<Vec3d>(1);
+        const double x = scanner_.number(), y = scanner_.number(), z = scanner_.number();
+        corners_.push_back({x, y, z});
     }
-    void expect(const char* small) {
-        const std::string_view word = next();
-        if (!same_word(word, small)) refuse_word(word, small);
+    /// Colour of the facets that follow, in shares or codes of sRGB.
+    void read_color(std::string_view word) {
+        if (builder_.options().strict) scanner_.refuse_word(word, kAfter[index(last_)]);
+        double value[3] = {0, 0, 0};
+        for (double& channel : value)
+            if (!scanner_.take_number(channel)) return;
+        const double most = std::max({value[0], value[1], value[2]}) > 1.0 ? 255.0 : 1.0;
+        builder_.take_entries<Vec4f>(1);
+        const Vec4f color{linear_color(value[0] / most), linear_color(value[1] / most), linear_color(value[2] / most), 1};
+        if (color_ != kNone && soup_.colors[color_] == color) return;
+        color_ = static_cast<std::uint32_t>(soup_.colors.size());
+        soup_.colors.push_back(color);
     }
-    double number() {
-        const std::string_view word = next();
-        const auto value = builder_.options().strict ? parse_real<double>(word) : parse_loosely(word);
-        if (!value) refuse_word(word, "a number");
-        return *value;
-    }
-    Vec3d point() {
-        const double x = number(), y = number(), z = number();
-        return {x, y, z};
-    }
-    /// After "facet". The normal is not used: it follows from the corners, and writers leave it out or get it wrong.
-    void facet() {
-        expect("normal");
-        point();
-        expect("outer");
-        expect("loop");
-        std::string_view word = next();
-        std::uint32_t place[3]{}, corners = 0;
-        for (; same_word(word, "vertex"); word = next(), ++corners) {
-            builder_.take_entries<Vec3d>(1);
-            const std::uint32_t found = places_.add(point(), soup_.positions);
-            if (corners < 3) place[corners] = found;
+    void end_facet() {
+        if (corners_.empty()) return;
+        if (builder_.options().strict && corners_.size() != 3)
+            refuse(scanner_.where(), fmt::format("a facet has {} corners, expected 3", corners_.size()));
+        if (corners_.size() >= 3) {
+            triangles_.clear();
+            builder_.take_triangles(corners_.size() - 2);
+            cutter_.cut(corners_, triangles_);
+            for (const std::uint32_t i : triangles_) soup_.position_of.push_back(places_.add(corners_[i], soup_.positions));
+            if (color_ != kNone) {
+                soup_.color_of.resize(soup_.position_of.size() - triangles_.size(), kNone);
+                soup_.color_of.resize(soup_.position_of.size(), color_);
+            }
         }
-        if (!same_word(word, "endloop")) refuse_word(word, "vertex or endloop");
-        expect("endfacet");
-        if (corners != 3) refuse(fmt::format("line {}", lines_.number()), fmt::format("a facet has {} corners, expected 3", corners));
-        builder_.take_triangles(1);
-        soup_.position_of.insert(soup_.position_of.end(), {place[0], place[1], place[2]});
+        corners_.clear();
     }
 
-    Lines lines_;
-    Words words_;
+    TextScanner scanner_;
     ModelBuilder& builder_;
     Soup soup_;
     PlaceTable<Vec3d> places_;
+    PolygonCutter cutter_;
+    std::vector<Vec3d> corners_;  ///< of the facet that is read
+    std::vector<std::uint32_t> triangles_;
+    std::uint32_t color_ = kNone;
+    Keyword last_ = Keyword::none;
 };
 
 // ---- binary ------------------------------------------------------------------------------------------------------------
@@ -110,17 +183,23 @@ private:
 /// Colours of 5 bits a channel, by Materialise Magics if the title has "COLOR=" and four bytes, else by VisCAM and SolidView.
 class StlColors {
 public:
-    explicit StlColors(std::string_view title) {
+    /// common: the attribute of all triangles; kNone: they differ.
+    StlColors(std::string_view title, std::uint32_t common) {
         const std::size_t at = title.find("COLOR=");
         is_magics_ = at != std::string_view::npos && at + 10 <= title.size();
-        for (std::size_t c = 0; is_magics_ && c < 4; ++c) whole_[c] = static_cast<std::uint8_t>(title[at + 6 + c]);
         for (std::size_t i = 0; i < 32; ++i) linear_[i] = linear_color(static_cast<double>(i) / 31.0);
+        has_none_ = means_no_color(ModelFormat::stl, common);
+        const auto channel = [&](std::size_t c) { return static_cast<std::uint8_t>(title[at + 6 + c]); };
+        if (!is_magics_ || (std::uint32_t{channel(0)} << 16 | std::uint32_t{channel(1)} << 8 | channel(2)) == kDefaultStlHeader) return;
+        has_whole_ = true;
+        for (std::size_t c = 0; c < 3; ++c) whole_[c] = channel(c);
     }
-    [[nodiscard]] bool is_magics() const { return is_magics_; }
+    /// Triangles without a colour of their own have the file's, instead of the usual grey.
+    [[nodiscard]] bool has_whole() const { return has_whole_; }
     /// Number of a triangle's colour, 0 to 0x7fff; kNone: has none of its own. Bit 15: VisCAM sets it where there is a colour, Magics where
     /// there is none.
     [[nodiscard]] std::uint32_t number_of(std::uint16_t attribute) const {
-        return ((attribute & 0x8000u) != 0) == is_magics_ ? kNone : attribute & 0x7fffu;
+        return has_none_ || ((attribute & 0x8000u) != 0) == is_magics_ ? kNone : attribute & 0x7fffu;
     }
     [[nodiscard]] Vec4f color(std::uint32_t number) const {
         const float low = linear_[number & 31u], middle = linear_[number >> 5 & 31u], high = linear_[number >> 10 & 31u];
@@ -132,8 +211,8 @@ public:
     }
 
 private:
-    bool is_magics_ = false;
-    std::uint8_t whole_[4] = {188, 188, 188, 255};
+    bool is_magics_ = false, has_none_ = false, has_whole_ = false;
+    std::uint8_t whole_[3] = {188, 188, 188};
     float linear_[32];
 };
 
@@ -155,13 +234,16 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
         builder.document().warn(fmt::format("{} bytes after the last triangle are ignored", bytes.size() - kHeader - kRecord * count));
     builder.take_triangles(count);
     builder.take_entries<Vec3d>(3 * count);
-    const StlColors colors(as_text(bytes.first(80)));
     const auto attribute_of = [&](std::size_t t) {
         const std::size_t at = kHeader + kRecord * t + 48;
         return static_cast<std::uint16_t>(u16_at(bytes, at));
     };
-    has_colors = colors.is_magics();
-    for (std::size_t t = 0; t < count && !has_colors; ++t) has_colors = colors.number_of(attribute_of(t)) != kNone;
+    std::uint32_t common = count == 0 ? kNone : attribute_of(0);
+    for (std::size_t t = 1; t < count && common != kNone; ++t)
+        if (attribute_of(t) != common) common = kNone;
+    const StlColors colors(as_text(bytes.first(80)), common);
+    has_colors = colors.has_whole() || (common != kNone && colors.number_of(static_cast<std::uint16_t>(common)) != kNone);
+    for (std::size_t t = 0; t < count && common == kNone && !has_colors; ++t) has_colors = colors.number_of(attribute_of(t)) != kNone;
 
     Soup soup;
     PlaceTable<Vec3d> places;
@@ -201,19 +283,16 @@ bool fits_binary_stl(std::span<const std::byte> bytes) {
     return bytes.size() >= kHeader && bytes.size() == kHeader + std::uint64_t{kRecord} * u32_at(bytes, 80);
 }
 
-bool is_binary_stl(std::span<const std::byte> bytes) {
-    if (fits_binary_stl(bytes)) return true;
-    std::string_view text = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024)));
-    while (!text.empty() && (is_blank(text.front()) || is_line_end(text.front()))) text.remove_prefix(1);
-    if (text.size() < 5 || !same_word(text.substr(0, 5), "solid")) return true;
-    // Text has no zero byte and a "facet" or "endsolid" soon; a cut-off binary file that begins with "solid" has the first.
-    return text.find('\0') != std::string_view::npos;
-}
-
 LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& /*base_dir*/, const LoadOptions& options) {
     ModelBuilder builder(bytes, "", options, "STL");
     bool has_colors = false;
-    Soup soup = is_binary_stl(bytes) ? read_binary(bytes, builder, has_colors) : StlText(as_text(bytes), builder).read();
+    Soup soup;
+    if (fits_binary_stl(bytes) || !begins_as_text(bytes)) {
+        soup = read_binary(bytes, builder, has_colors);
+    } else {
+        soup = StlText(as_text(bytes), builder).read();
+        has_colors = !soup.colors.empty();
+    }
     const int material = has_colors ? builder.colored_material() : builder.grey_material();
     builder.place_alone(std::move(soup), {&material, 1});
     return builder.finish({.up = UpAxis::z});

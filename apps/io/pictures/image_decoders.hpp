@@ -31,6 +31,9 @@ Result<ImageHeader> read_webp_header(std::span<const std::byte> file, const Imag
 Result<DecodedImage> decode_webp(std::span<const std::byte> file, const ImageLimits& limits);
 Result<ImageHeader> read_bmp_header(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_bmp(std::span<const std::byte> file, const ImageLimits& limits);
+[[nodiscard]] bool is_tiff(std::span<const std::byte> file);
+Result<ImageHeader> read_tiff_header(std::span<const std::byte> file, const ImageLimits& limits);
+Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLimits& limits);
 Result<DecodedImage> decode_tga(std::span<const std::byte> file, const ImageLimits& limits);
 
 /// Fails unless width and height are at least 1 and within the limits.

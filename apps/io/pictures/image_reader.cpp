@@ -17,7 +17,7 @@ bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> 
                                                       [](std::uint8_t a, std::byte b) { return a == static_cast<std::uint8_t>(b); });
 }
 
-constexpr const char* kExpected = "PNG, JPEG, WebP or BMP";
+constexpr const char* kExpected = "PNG, JPEG, WebP, BMP or TIFF";
 
 Result<ImageFormat> format_of(std::span<const std::byte> file) {
     static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}, kJpeg[] = {0xFF, 0xD8, 0xFF};
@@ -27,6 +27,7 @@ Result<ImageFormat> format_of(std::span<const std::byte> file) {
     if (starts_with(file, kJpeg)) return ImageFormat::jpeg;
     if (starts_with(file, kRiff) && file.size() >= 12 && starts_with(file.subspan(8), kWebp)) return ImageFormat::webp;
     if (starts_with(file, kBmp)) return ImageFormat::bmp;
+    if (detail::is_tiff(file)) return ImageFormat::tiff;
     const char* other = starts_with(file, kKtx2) ? "KTX2" : starts_with(file, kGif) ? "GIF" : nullptr;
     if (other != nullptr) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found {}", kExpected, other));
     if (file.empty()) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found nothing", kExpected));
@@ -70,6 +71,7 @@ Result<ImageHeader> read_image_header(std::span<const std::byte> file, const Ima
     if (!format) return tl::unexpected(format.error());
     if (*format == ImageFormat::webp) return detail::read_webp_header(file, limits);
     if (*format == ImageFormat::bmp) return detail::read_bmp_header(file, limits);
+    if (*format == ImageFormat::tiff) return detail::read_tiff_header(file, limits);
     return *format == ImageFormat::png ? detail::read_png_header(file, limits) : detail::read_jpeg_header(file, limits);
 }
 
@@ -78,6 +80,7 @@ Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLi
     if (!format) return tl::unexpected(format.error());
     if (*format == ImageFormat::webp) return detail::decode_webp(file, limits);
     if (*format == ImageFormat::bmp) return detail::decode_bmp(file, limits);
+    if (*format == ImageFormat::tiff) return detail::decode_tiff(file, limits);
     if (*format == ImageFormat::png) return detail::decode_png(file, limits, keep_16_bits);
     const auto header = detail::read_jpeg_header(file, limits);
     if (!header) return tl::unexpected(header.error());

@@ -1,4 +1,4 @@
-// Decoding of PNG, JPEG, WebP and BMP pictures in memory. Limits are checked on the header, before pixels are decoded.
+// Decoding of PNG, JPEG, WebP, BMP and TIFF pictures in memory. Limits are checked on the header, before pixels are decoded.
 #pragma once
 
 #include "halflit/error.hpp"
@@ -18,7 +18,7 @@ struct ImageLimits {
     bool keep_damaged = false;  ///< decode_rows adds the rows of a damaged picture that can be read, before it returns the error
 };
 
-enum class ImageFormat : std::uint8_t { png, jpeg, webp, bmp };
+enum class ImageFormat : std::uint8_t { png, jpeg, webp, bmp, tiff };
 
 struct ImageHeader {
     ImageFormat format = ImageFormat::png;

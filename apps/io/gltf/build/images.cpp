@@ -66,17 +66,9 @@ struct TextureRows : RowSink {
 };
 
 std::string_view mime_type_of(ImageFormat format) {
-    switch (format) {
-        case ImageFormat::png:
-            return "image/png";
-        case ImageFormat::jpeg:
-            return "image/jpeg";
-        case ImageFormat::bmp:
-            return "image/bmp";
-        case ImageFormat::webp:
-            break;
-    }
-    return "image/webp";
+    static constexpr std::string_view kTypes[] = {"image/png", "image/jpeg", "image/webp", "image/bmp", "image/tiff"};
+    static_assert(std::size(kTypes) == static_cast<std::size_t>(ImageFormat::tiff) + 1);
+    return kTypes[static_cast<std::size_t>(format)];
 }
 
 std::string identity(const file::Image& entry) {
