@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <utility>
 
 namespace halflit::io {
@@ -17,26 +18,33 @@ namespace {
 
 using platform::FileKind, platform::Handle;
 
-/// Reads an open file that must be regular. `cannot_read` is the code for faults of the file system.
-Result<std::vector<std::byte>> read_regular(const Handle& file, std::size_t max_bytes, ErrorCode cannot_read) {
+/// Reads an open file that must be regular. `no_file` is the code for what is none. Faults of the file system are always io.
+Result<std::vector<std::byte>> read_regular(const Handle& file, std::size_t max_bytes, ErrorCode no_file) {
     platform::FileStatus info;
     if (const int error = platform::status_of(file.get(), info); error != 0)
-        return fail(cannot_read, fmt::format("cannot be read: {}", platform::errno_text(error)));
+        return fail(ErrorCode::io, fmt::format("cannot be read: {}", platform::errno_text(error)));
     if (info.kind != FileKind::file)
-        return fail(cannot_read, info.kind == FileKind::folder ? "is a directory, expected a file" : "is not a regular file");
+        return fail(no_file, info.kind == FileKind::folder ? "is a directory, expected a file" : "is not a regular file");
     if (info.bytes > max_bytes)
         return fail(ErrorCode::limit, fmt::format("has {} bytes, the limit is {} (max_file_bytes)", info.bytes, max_bytes));
     std::vector<std::byte> bytes(static_cast<std::size_t>(info.bytes));
     std::size_t have = 0;
     while (have < bytes.size()) {
         const std::ptrdiff_t got = platform::read_some(file.get(), bytes.data() + have, bytes.size() - have);
-        if (got < 0) return fail(cannot_read, fmt::format("cannot be read: {}", platform::errno_text(errno)));
+        if (got < 0) return fail(ErrorCode::io, fmt::format("cannot be read: {}", platform::errno_text(errno)));
         if (got == 0) return fail(ErrorCode::bad_input, fmt::format("ended after {} of {} bytes while it was read", have, bytes.size()));
         have += static_cast<std::size_t>(got);
     }
     std::byte extra{};
     if (platform::read_some(file.get(), &extra, 1) > 0) return fail(ErrorCode::bad_input, "grew while it was read");
     return bytes;
+}
+
+/// True for errors of opening that say what the file's name is: that of no file, or of a socket or device that nobody serves. Others say
+/// that the file system, or the process, cannot read now.
+bool means_no_file(int error) {
+    static constexpr int kErrors[] = {ENOENT, ENOTDIR, ENAMETOOLONG, EINVAL, EILSEQ, ENXIO, ENODEV, EISDIR};
+    return std::find(std::begin(kErrors), std::end(kErrors), error) != std::end(kErrors);
 }
 
 /// Removes "." and resolves ".." by the text alone, as RFC 3986 (5.2.4) does. A relative name may begin with ".." afterwards. A name that
@@ -193,10 +201,9 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
         return refuse(folders_.size() > (has_base_ ? 1 : 0) ? "leads out of the model's folder and of those that are allowed"
                                                             : "leads out of the model's folder");
     if (error == ENOENT) return refuse("no such file");
-    const bool process_is_full = error == EMFILE || error == ENFILE;
-    return fail(error == ENOMEM   ? ErrorCode::limit
-                : process_is_full ? ErrorCode::io
-                                  : ErrorCode::bad_input,
+    return fail(error == ENOMEM          ? ErrorCode::limit
+                : means_no_file(error) ? ErrorCode::bad_input
+                                       : ErrorCode::io,
                 fmt::format("\"{}\": cannot be opened: {}", shown, platform::errno_text(error)));
 }
 

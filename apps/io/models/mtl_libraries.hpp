@@ -78,6 +78,7 @@ private:
         builder_.add_file(name);
         const auto bytes = document.read_named(ModelBuilder::file_name(name));
         const std::string shown = "mtllib " + printable(name, 120);
+        if (!bytes && bytes.error().code != ErrorCode::bad_input) refuse(shown, bytes.error().message, bytes.error().code);
         if (!bytes) {
             if (quietly) return false;
             if (!document.options.strict && read_own()) {
@@ -99,6 +100,7 @@ private:
         std::string found;
         const LoadOptions& options = builder_.options();
         const auto bytes = builder_.document().folder.read_like(own_name_, options.limits.max_file_bytes, found);
+        if (!bytes && bytes.error().code != ErrorCode::bad_input) refuse("mtllib " + own_name_, bytes.error().message, bytes.error().code);
         if (!bytes) return false;
         builder_.document().warn(fmt::format("materials are those of \"{}\", which has the model's name", printable(found, 120)));
         take_in(*bytes, "mtllib " + printable(found, 120));
