@@ -9,6 +9,15 @@
 namespace halflit::raster {
 namespace {
 
+/// The least depth of a tile's samples; 0 if one of them shows nothing.
+float farthest_depth(const TileRect& rect, int samples, const TileBuffers& buffers) {
+    float least = 1.0f;
+    for (int s = 0; s < samples; ++s)
+        for (int y = 0; y < rect.height; ++y)
+            for (int x = 0; x < rect.width; ++x) least = std::min(least, buffers.depth[s][y * kTileStride + x]);
+    return least;
+}
+
 /// Opaque triangles of a tile on their way to the kernel, which sees them as one list although they come from many chunks: most chunks have
 /// less than a hundred in a tile, and prefetching and side by side set-up need longer lists.
 class OpaqueTriangles {
@@ -17,11 +26,12 @@ public:
     OpaqueTriangles(const ViewGeometry& geometry, Kernel rasterize, StopSignal& stop, const TileRect& rect, TileScratch& scratch)
         : geometry_(geometry), rasterize_(rasterize), stop_(stop), rect_(rect), scratch_(scratch) {}
 
-    void add(std::uint32_t id_base, std::span<const std::uint32_t> records) {
+    void add(const TriangleSource& source, std::span<const std::uint32_t> records) {
+        if (farthest_ > 0.0f) return add_nearer(source, records);
         while (!records.empty()) {
             if (count_ == std::size(scratch_.opaque)) draw();
             const std::size_t n = std::min(records.size(), std::size(scratch_.opaque) - count_);
-            for (std::size_t i = 0; i < n; ++i) scratch_.opaque[count_ + i] = id_base + records[i];
+            for (std::size_t i = 0; i < n; ++i) scratch_.opaque[count_ + i] = source.id_base + records[i];
             count_ += n;
             records = records.subspan(n);
         }
@@ -30,16 +40,33 @@ public:
         if (count_ == 0) return;
         stop_.check();
         rasterize_(rect_, geometry_.view().samples, scratch_.buffers, geometry_.table(), scratch_.opaque, static_cast<int>(count_));
+        since_look_ += count_;
         count_ = 0;
+        if (since_look_ < kTrianglesBetweenLooks) return;
+        since_look_ = 0;
+        farthest_ = farthest_depth(rect_, geometry_.view().samples.count, scratch_.buffers);
     }
 
 private:
     const ViewGeometry& geometry_;
     Kernel rasterize_;
     StopSignal& stop_;
+    static constexpr std::size_t kTrianglesBetweenLooks = 4096;
+
+    /// Those that are not behind all samples of the tile. A triangle's depths lie within those of its vertices.
+    void add_nearer(const TriangleSource& source, std::span<const std::uint32_t> records) {
+        for (const std::uint32_t record : records) {
+            const std::uint32_t(&v)[3] = source.records[record].vertex;
+            if (!(std::max({vertex_of(source, v[0]).z, vertex_of(source, v[1]).z, vertex_of(source, v[2]).z}) > farthest_)) continue;
+            if (count_ == std::size(scratch_.opaque)) draw();
+            scratch_.opaque[count_++] = source.id_base + record;
+        }
+    }
+
     const TileRect& rect_;
     TileScratch& scratch_;
-    std::size_t count_ = 0;
+    std::size_t count_ = 0, since_look_ = 0;
+    float farthest_ = 0.0f;  ///< depth that all samples have at least
 };
 
 /// Adds a tile's opaque triangles of one chunk, and calls visit(record) for each other one, in submission order.
@@ -47,14 +74,14 @@ template <class Visit>
 void add_list(OpaqueTriangles& opaque, const ViewGeometry& geometry, const TriangleSource& source, std::span<const std::uint32_t> list,
               bool all_opaque, const Visit& visit) {
     if (all_opaque) {
-        opaque.add(source.id_base, list);
+        opaque.add(source, list);
         return;
     }
     const auto is_opaque = [&](std::size_t i) { return geometry.draw_of(source.records[list[i]]).alpha_mode == AlphaMode::opaque; };
     for (std::size_t i = 0; i < list.size(); ++i) {
         std::size_t run = i;
         while (run < list.size() && is_opaque(run)) ++run;
-        opaque.add(source.id_base, list.subspan(i, run - i));
+        opaque.add(source, list.subspan(i, run - i));
         if (run < list.size()) visit(list[run]);
         i = run;
     }
@@ -66,15 +93,6 @@ void clear_tile(const TileRect& rect, int samples, bool depth_only, TileBuffers&
         std::memset(buffers.depth[s], 0, used * sizeof(float));
         if (!depth_only) std::memset(buffers.triangle[s], 0xff, used * sizeof(std::uint32_t));
     }
-}
-
-/// The least depth of a tile's samples; 0 if one of them shows nothing.
-float farthest_depth(const TileRect& rect, int samples, const TileBuffers& buffers) {
-    float least = 1.0f;
-    for (int s = 0; s < samples; ++s)
-        for (int y = 0; y < rect.height; ++y)
-            for (int x = 0; x < rect.width; ++x) least = std::min(least, buffers.depth[s][y * kTileStride + x]);
-    return least;
 }
 
 bool is_all_opaque(const ViewGeometry& geometry) { return !geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend); }
@@ -191,34 +209,12 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
 }
 
 void draw_opaque(const ViewGeometry& geometry, const RasterKernels& kernels, StopSignal& stop, int tile, TileScratch& scratch) {
-    constexpr std::size_t kTrianglesBetweenLooks = 4096;
     const TileRect rect = geometry.view().tile_rect(tile);
-    const int samples = geometry.view().samples.count;
-    clear_tile(rect, samples, false, scratch.buffers);
+    clear_tile(rect, geometry.view().samples.count, false, scratch.buffers);
     OpaqueTriangles opaque(geometry, kernels.rasterize, stop, rect, scratch);
-    std::vector<std::uint32_t> nearer;
-    std::size_t since_look = 0;
-    float farthest = 0.0f;  // depth that all samples have at least
-    for (std::size_t c = 0; c < geometry.chunks().size(); ++c) {
-        const TriangleSource& source = geometry.source(c);
-        std::span<const std::uint32_t> list = geometry.tile_list(c, tile, scratch.tile_list);
-        if (farthest > 0.0f) {
-            // A triangle's depths lie within those of its vertices.
-            nearer.clear();
-            for (const std::uint32_t record : list) {
-                const std::uint32_t(&v)[3] = source.records[record].vertex;
-                if (std::max({vertex_of(source, v[0]).z, vertex_of(source, v[1]).z, vertex_of(source, v[2]).z}) > farthest)
-                    nearer.push_back(record);
-            }
-            list = nearer;
-        }
-        add_list(opaque, geometry, source, list, is_all_opaque(geometry), [](std::uint32_t) {});
-        since_look += list.size();
-        if (since_look < kTrianglesBetweenLooks) continue;
-        since_look = 0;
-        opaque.draw();
-        farthest = farthest_depth(rect, samples, scratch.buffers);
-    }
+    for (std::size_t c = 0; c < geometry.chunks().size(); ++c)
+        add_list(opaque, geometry, geometry.source(c), geometry.tile_list(c, tile, scratch.tile_list), is_all_opaque(geometry),
+                 [](std::uint32_t) {});
     opaque.draw();
 }
 
