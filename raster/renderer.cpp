@@ -105,6 +105,11 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
                                             const Settings& settings, const Target& target, const Execution& execution, Isa isa,
                                             RenderReport report, const PixelMask* only) {
     Stopwatch watch, begun;
+    const std::uint64_t allowed = scene.scene().frame_work, samples = static_cast<std::uint64_t>(settings.samples);
+    constexpr std::uint64_t kWorkOfSample = 256;  // surfaces behind each other, lights
+    const WorkLimit work(allowed == 0 ? 0
+                                      : allowed + kWorkOfSample * samples * static_cast<std::uint64_t>(target.width) *
+                                                      static_cast<std::uint64_t>(target.height));
     executor.configure(execution);
     plan_memory.stop = &executor.stop();
     plan_memory.for_each_row = [this](int count, const std::function<void(int)>& body) { executor.run(count, body); };

@@ -5,6 +5,7 @@
 
 #include "halflit/export.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -14,6 +15,7 @@ namespace halflit {
 /// Thrown by check_time().
 struct HALFLIT_API OutOfTime {
     bool is_cancelled = false;  ///< cancelled before the time was over
+    bool is_work = false;       ///< thrown by charge_work()
 };
 
 /// Sets a time limit for this thread while the object lives, and what may cancel its work.
@@ -25,8 +27,9 @@ public:
     using Cancelled = std::function<bool()>;
     /// A limit that can be taken to another thread.
     struct Bounds {
-        Clock::time_point end;       ///< the largest time point: none
-        const Cancelled* cancelled;  ///< null: nothing cancels
+        Clock::time_point end;                      ///< the largest time point: none
+        const Cancelled* cancelled;                 ///< null: nothing cancels
+        std::atomic<std::int64_t>* work = nullptr;  ///< what is left of a WorkLimit; null: none
     };
 
     /// Of nested limits the earlier one holds. 0: no limit of its own. cancelled: in place of the outer one, which stays if it is null or
@@ -44,6 +47,26 @@ public:
 private:
     Bounds outer_;
 };
+
+/// Sets a limit for the work that this thread, and those that take its time limit along, do while the object lives. It is counted, not
+/// measured, so that it ends the same work everywhere: long steps whose length a file decides say it by charge_work(). A unit is about a
+/// nanosecond of one core. The limit replaces that of outer calls.
+class [[nodiscard]] WorkLimit {
+public:
+    HALFLIT_API explicit WorkLimit(std::uint64_t units);  ///< 0: no limit
+    HALFLIT_API ~WorkLimit();
+    WorkLimit(const WorkLimit&) = delete;
+    WorkLimit& operator=(const WorkLimit&) = delete;
+
+private:
+    std::atomic<std::int64_t> left_;
+    std::atomic<std::int64_t>* outer_;
+};
+
+/// Says that work of so many units follows. Throws OutOfTime beyond the limit. About 5 ns.
+HALFLIT_API void charge_work(std::uint64_t units);
+/// Raises the limit: there is more to read.
+HALFLIT_API void grant_work(std::uint64_t units);
 
 /// True if this thread's limit is over or its work is cancelled.
 [[nodiscard]] HALFLIT_API bool time_is_over();
@@ -73,6 +96,7 @@ template <class Less>
 }
 
 /// Messages of the errors for work that OutOfTime ended.
-inline constexpr const char *kOutOfTime = "the time limit was reached before the work was done", *kCancelled = "stopped on request";
+inline constexpr const char *kOutOfTime = "the time limit was reached before the work was done", *kCancelled = "stopped on request",
+                            *kOutOfWork = "takes more work than a file of its size may (max_work)";
 
 }  // namespace halflit

@@ -12,7 +12,7 @@ namespace halflit {
 [[nodiscard]] inline tl::unexpected<Error> fail_out_of_time(const OutOfTime& found, const std::string& before = "",
                                                             const std::string& after = "") {
     if (found.is_cancelled) return fail(ErrorCode::cancelled, before + kCancelled);
-    return fail(ErrorCode::limit, before + kOutOfTime + after);
+    return fail(ErrorCode::limit, before + (found.is_work ? kOutOfWork : kOutOfTime) + after);
 }
 
 }  // namespace halflit

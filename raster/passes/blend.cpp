@@ -6,6 +6,7 @@
 // pixel has, each of its samples goes through its fragments in several turns, from far to near. So memory is bounded and no layer is lost,
 // and as each sample blends the same colours in the same order, how a tile is divided cannot be seen.
 #include "raster/passes/picture_tile.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -17,6 +18,7 @@ namespace {
 using Fragment = LayerScratch::Fragment;
 
 constexpr std::size_t kMostFragments = std::size_t{1} << 16;
+constexpr std::uint64_t kUnitsAFragment = 100;  ///< of charge_work
 
 /// Orders layers from far to near, those of one depth by `order`. Depths are positive, so their bits have the order of their values.
 std::uint64_t layer_key(float z, std::uint32_t order) { return std::uint64_t{std::bit_cast<std::uint32_t>(z)} << 32 | order; }
@@ -24,7 +26,7 @@ std::uint64_t layer_key(float z, std::uint32_t order) { return std::uint64_t{std
 /// Calls visit(chunk, record) for the tile's transparent triangles in submission order, until it returns false. False: it did.
 template <class Visit>
 bool for_each_layer(const TilePass& pass, int tile, TileScratch& scratch, const Visit& visit) {
-    constexpr int kLayersBetweenChecks = 16;
+    constexpr int kLayersBetweenChecks = 16, kUnitsALayer = 500;
     int visited = 0;
     const auto chunks = pass.geometry.chunks();
     for (std::size_t c = 0; c < chunks.size(); ++c) {
@@ -35,7 +37,10 @@ bool for_each_layer(const TilePass& pass, int tile, TileScratch& scratch, const 
             const Draw& draw = pass.geometry.draw_of(chunks[c]->records[record]);
             if (draw.alpha_mode != AlphaMode::blend) continue;
             if (pass.behind && pass.materials[static_cast<std::size_t>(draw.material)].transmission.looked_through) continue;
-            if (++visited % kLayersBetweenChecks == 0) pass.stop.check();
+            if (++visited % kLayersBetweenChecks == 0) {
+                pass.stop.check();
+                charge_work(kLayersBetweenChecks * kUnitsALayer);
+            }
             if (!visit(c, record)) return false;
         }
     }
@@ -74,6 +79,7 @@ void PictureTile::blend_layers(const TileRect& part) {
         std::size_t samples = 0;
         for (const Fragment& fragment : scratch_.layers->fragments) samples += static_cast<std::size_t>(std::popcount(fragment.samples));
         pass_.layers.take(samples);
+        charge_work(kUnitsAFragment * scratch_.layers->fragments.size());
         shade_layers();
         blend_pixels(part);
         return;

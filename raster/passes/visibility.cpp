@@ -1,6 +1,7 @@
 // The visibility pass: the triangle that each sample of a tile shows.
 #include "raster/passes/count_work.hpp"
 #include "raster/passes/tile.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -39,6 +40,7 @@ public:
     void draw() {
         if (count_ == 0) return;
         stop_.check();
+        charge();
         rasterize_(rect_, geometry_.view().samples, scratch_.buffers, geometry_.table(), scratch_.opaque, static_cast<int>(count_));
         since_look_ += count_;
         count_ = 0;
@@ -51,8 +53,28 @@ private:
     const ViewGeometry& geometry_;
     Kernel rasterize_;
     StopSignal& stop_;
-    static constexpr std::size_t kTrianglesBetweenLooks = 4096;
+    static constexpr std::size_t kTrianglesBetweenLooks = 4096, kCharged = 16;
 
+    /// Work of the triangles on their way, by the part of the tile that every sixteenth one's box covers.
+    void charge() const {
+        constexpr std::uint64_t kUnitsATriangle = 10, kSamplesAUnit = 4;
+        constexpr int kFraction = 8;  // bits of ScreenVertex
+        const TriangleTable table = geometry_.table();
+        std::uint64_t pixels = 0;
+        for (std::size_t i = 0; i < count_; i += kCharged) {
+            const TriangleSource& source = table.chunks[scratch_.opaque[i] >> table.local_bits];
+            const std::uint32_t(&v)[3] = source.records[scratch_.opaque[i] - source.id_base].vertex;
+            const ScreenVertex &a = vertex_of(source, v[0]), &b = vertex_of(source, v[1]), &c = vertex_of(source, v[2]);
+            const auto length = [](std::int64_t low, std::int64_t high, std::int64_t first, std::int64_t size) {
+                const std::int64_t from = std::max(low >> kFraction, first), to = std::min(high >> kFraction, first + size - 1);
+                return static_cast<std::uint64_t>(std::max<std::int64_t>(0, to - from + 1));
+            };
+            pixels += length(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), rect_.x, rect_.width) *
+                      length(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), rect_.y, rect_.height);
+        }
+        const auto samples = static_cast<std::uint64_t>(geometry_.view().samples.count);
+        charge_work(kUnitsATriangle * count_ + kCharged * pixels * samples / kSamplesAUnit);
+    }
     /// Those that are not behind all samples of the tile. A triangle's depths lie within those of its vertices.
     void add_nearer(const TriangleSource& source, std::span<const std::uint32_t> records) {
         for (const std::uint32_t record : records) {

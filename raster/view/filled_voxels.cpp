@@ -16,7 +16,7 @@ constexpr double kPhase = 0.38;   ///< of the voxels' borders, so that round coo
 
 /// Points that are marked before large triangles count by their corners alone: a second or so. A scene of a million triangles that each
 /// fill the grid has 40 times as many.
-constexpr std::uint64_t kMostMarks = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMostMarks = std::uint64_t{1} << 28, kBetweenLooks = std::uint64_t{1} << 20;
 
 class Marker {
 public:
@@ -35,6 +35,10 @@ public:
         voxels_.bits.row(static_cast<int>(p.z), static_cast<int>(p.y)) |= BitGrid::Word{1} << static_cast<int>(p.x);
     }
     void mark(Vec3d a, Vec3d b, Vec3d c) {
+        if (marks_ >= next_look_) {
+            check_time();
+            next_look_ = marks_ + kBetweenLooks;
+        }
         const Vec3d ab = b - a, bc = c - b, ca = a - c;
         const double longest = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
         mark(a);
@@ -79,7 +83,7 @@ private:
     }
 
     FilledVoxels& voxels_;
-    std::uint64_t marks_ = 0;
+    std::uint64_t marks_ = 0, next_look_ = kBetweenLooks;
 };
 
 bool hides(const Scene& scene, const Instance& instance) {

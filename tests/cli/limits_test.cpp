@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -83,6 +85,66 @@ TEST_CASE("limits: --timeout is kept while an environment is read and analysed",
         }
         CHECK(run({"env", sky, "--timeout", "0.5"}).code == 5);
     }
+}
+
+namespace {
+
+std::string number32(std::uint32_t value) {
+    std::string text;
+    for (int shift = 0; shift < 32; shift += 8) text += static_cast<char>(value >> shift & 255u);
+    return text;
+}
+
+/// A GLB of a tetrahedron whose faces are there `copies` times, in so many instances at one place.
+std::string heap_of_triangles(int copies, int instances) {
+    std::string bin;
+    for (const float value : {-1.f, -1.f, 0.f, 1.f, -1.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f}) {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &value, 4);
+        bin += number32(bits);
+    }
+    for (int i = 0; i < copies; ++i)
+        for (const int corner : {0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 2, 1}) bin += std::string{static_cast<char>(corner), '\0'};
+    std::string json =
+        R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_mesh_gpu_instancing"],"scene":0,"scenes":[{"nodes":[0]}],)"
+        R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":2}}}}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],"materials":[{"doubleSided":true}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":)" +
+        std::to_string(24 * copies) +
+        R"(}],"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-1,-1,0],"max":[1,1,1]},)"
+        R"({"bufferView":1,"componentType":5123,"count":)" +
+        std::to_string(12 * copies) + R"(,"type":"SCALAR"},{"componentType":5126,"type":"VEC3","count":)" + std::to_string(instances) +
+        R"(}],"buffers":[{"byteLength":)" + std::to_string(bin.size()) + "}]}";
+    while (json.size() % 4 != 0) json += ' ';
+    while (bin.size() % 4 != 0) bin += '\0';
+    return "glTF" + number32(2) + number32(static_cast<std::uint32_t>(28 + json.size() + bin.size())) +
+           number32(static_cast<std::uint32_t>(json.size())) + "JSON" + json + number32(static_cast<std::uint32_t>(bin.size())) +
+           std::string("BIN\0", 4) + bin;
+}
+
+}  // namespace
+
+TEST_CASE("limits: a small file cannot take long, and --timeout ends it", "[cli]") {
+    const TemporaryFolder folder;
+    const std::string heap = folder.file("heap.glb"), sky = folder.file("sky.hdr");
+    write_contents(heap, heap_of_triangles(1500, 200));
+    const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n";
+    write_contents(sky, head + std::string("\1\1\1\1", 4) + std::string(90000, '\1'));  // old runs: one pixel many times
+    const double before = processor_s_of_children();
+    const Outcome by_work = run({heap, "--size", "256", "-o", folder.file("a.png")});
+    const Outcome by_pixels = run({"sphere:100", "--env", sky, "--size", "64", "-o", folder.file("a.png")});
+    CHECK(processor_s_of_children() - before < 10.0);
+    CHECK(by_work.code == 5);
+    CHECK(by_work.err.find("takes more work than a file of its size may (max_work)") != std::string::npos);
+    CHECK(by_pixels.code == 5);
+    CHECK(by_pixels.err.find("the limit is") != std::string::npos);
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome by_time = run({heap, "--size", "256", "--max-work", "1000000000000000", "--timeout", "1", "-o", folder.file("a.png")});
+    CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 1.5);
+    CHECK(by_time.code == 5);
+    CHECK(by_time.err.find("time limit") != std::string::npos);
+    CHECK(run({heap, "--size", "16", "--shadows", "off", "-o", folder.file("b.png")}).code == 0);  // fewer pixels are less work
+    CHECK(folder.names() == std::vector<std::string>{"b.png", "heap.glb", "sky.hdr"});
 }
 
 TEST_CASE("limits: --timeout is kept among many names of a model", "[cli][slow]") {

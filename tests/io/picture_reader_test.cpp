@@ -4,8 +4,11 @@
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 using namespace halflit;
 
@@ -49,6 +52,156 @@ std::string tga_of(int type, int width, int height, int bits, int order, const s
 }
 
 }  // namespace
+
+namespace {
+
+/// A TIFF of one strip, or of tiles: tags, their values behind them, then the data.
+struct TiffMaker {
+    bool big = false;
+    std::uint32_t width = kWidth, height = kHeight, samples = 3, bits = 8, photometric = 2, compression = 1, predictor = 1, tile = 0;
+    std::vector<std::uint16_t> palette{};
+    std::vector<std::string> parts{};  ///< compressed
+
+    [[nodiscard]] std::string number(std::uint32_t value, int bytes) const {
+        std::string text = little_endian(value, bytes);
+        if (big) std::reverse(text.begin(), text.end());
+        return text;
+    }
+    [[nodiscard]] std::string file() const {
+        std::string values, data, tags;
+        std::uint32_t count = 0;
+        const std::uint32_t entries = 12 + (palette.empty() ? 0 : 1), first_value = 8 + 2 + 12 * entries + 4;
+        const auto tag = [&](std::uint32_t id, std::uint32_t type, const std::vector<std::uint32_t>& list) {
+            std::string bytes;
+            for (const std::uint32_t value : list) bytes += number(value, type == 3 ? 2 : 4);
+            tags += number(id, 2) + number(type, 2) + number(static_cast<std::uint32_t>(list.size()), 4);
+            if (bytes.size() <= 4) {
+                tags += bytes + std::string(4 - bytes.size(), '\0');
+            } else {
+                tags += number(first_value + static_cast<std::uint32_t>(values.size()), 4);
+                values += bytes;
+            }
+            ++count;
+        };
+        const std::uint32_t n = static_cast<std::uint32_t>(parts.size());
+        std::vector<std::uint32_t> offsets, sizes;
+        std::uint32_t at = first_value + 4 * samples + 8 * n + 2 * static_cast<std::uint32_t>(palette.size()) + 64;
+        for (const std::string& part : parts) {
+            offsets.push_back(at);
+            sizes.push_back(static_cast<std::uint32_t>(part.size()));
+            at += sizes.back();
+        }
+        tag(256, 4, {width}), tag(257, 3, {height});
+        tag(258, 3, std::vector<std::uint32_t>(samples, bits));
+        tag(259, 3, {compression}), tag(262, 3, {photometric}), tag(277, 3, {samples}), tag(317, 3, {predictor});
+        tag(338, 3, {2});
+        if (!palette.empty()) tag(320, 3, {palette.begin(), palette.end()});
+        if (tile > 0)
+            tag(322, 3, {tile}), tag(323, 3, {tile}), tag(324, 4, offsets), tag(325, 4, sizes);
+        else
+            tag(278, 4, {height}), tag(273, 4, offsets), tag(279, 4, sizes), tag(284, 3, {1});
+        REQUIRE(count == entries);
+        std::string out = (big ? "MM" : "II") + number(42, 2) + number(8, 4) + number(entries, 2) + tags + number(0, 4) + values;
+        out.resize(offsets.front(), '\0');
+        for (const std::string& part : parts) out += part;
+        return out;
+    }
+};
+
+/// Codes of 9 to 12 bits, each a byte by itself: a clear code before the table is full.
+std::string lzw_of(const std::string& bytes) {
+    std::string out;
+    std::uint32_t held = 0, bits = 0;
+    const auto put = [&](std::uint32_t code) {
+        held = held << 9 | code, bits += 9;
+        for (; bits >= 8; bits -= 8) out += static_cast<char>(held >> (bits - 8) & 255u);
+    };
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        if (i % 200 == 0) put(256);
+        put(static_cast<unsigned char>(bytes[i]));
+    }
+    put(257);
+    if (bits > 0) out += static_cast<char>(held << (8 - bits) & 255u);
+    return out;
+}
+
+std::string packed_bits_of(const std::string& bytes) {
+    std::string out;
+    for (std::size_t i = 0; i < bytes.size();) {
+        std::size_t same = 1;
+        while (same < 128 && i + same < bytes.size() && bytes[i + same] == bytes[i]) ++same;
+        out += static_cast<char>(same > 1 ? 1 - static_cast<int>(same) : 0);
+        out += bytes[i];
+        i += same;
+    }
+    return out;
+}
+
+std::string rgb_of(const Image& image, std::size_t channels, std::size_t bytes_a_channel = 1) {
+    std::string out;
+    for (std::size_t i = 0; i < image.rgba8.size(); ++i)
+        if (i % 4 < channels) out.append(bytes_a_channel, static_cast<char>(image.rgba8[i]));
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("pictures: TIFF of each kind that painting programs write comes back", "[io][picture]") {
+    const Image image = pattern();
+    const auto check = [&](const TiffMaker& maker, bool has_alpha, const char* what) {
+        INFO(what);
+        const std::string file = maker.file();
+        const auto decoded = decode(file, "a.tif");
+        REQUIRE(decoded);
+        REQUIRE(decoded->rgba8.size() == image.rgba8.size());
+        for (std::size_t i = 0; i < image.rgba8.size(); ++i)
+            REQUIRE(decoded->rgba8[i] == (i % 4 == 3 && !has_alpha ? 255 : image.rgba8[i]));
+        for (std::size_t cut = 0; cut < file.size(); cut += 7) (void)decode(file.substr(0, cut), "a.tif");  // no crash
+    };
+    const std::string rgb = rgb_of(image, 3), rgba = rgb_of(image, 4);
+    for (const bool big : {false, true}) {
+        check({.big = big, .parts = {rgb}}, false, "plain");
+        check({.big = big, .samples = 4, .parts = {rgba}}, true, "alpha");
+        check({.big = big, .compression = 5, .parts = {lzw_of(rgb)}}, false, "LZW");
+        check({.big = big, .compression = 32773, .parts = {packed_bits_of(rgb)}}, false, "PackBits");
+        check({.big = big, .bits = 16, .parts = {rgb_of(image, 3, 2)}}, false, "16 bits");
+        std::string differences = rgb;
+        for (std::size_t y = 0; y < kHeight; ++y)
+            for (std::size_t i = kWidth * 3; i-- > 3;)
+                differences[y * kWidth * 3 + i] = static_cast<char>(rgb[y * kWidth * 3 + i] - rgb[y * kWidth * 3 + i - 3]);
+        check({.big = big, .compression = 5, .predictor = 2, .parts = {lzw_of(differences)}}, false, "differences");
+        // Tiles of 16: three across, of which the last one hangs over, as it does below.
+        std::vector<std::string> tiles;
+        for (std::size_t left = 0; left < kWidth; left += 16) {
+            std::string tile;
+            for (std::size_t y = 0; y < 16; ++y)
+                for (std::size_t x = left; x < left + 16; ++x)
+                    tile += x < kWidth && y < kHeight ? rgb.substr(3 * (y * kWidth + x), 3) : std::string(3, '\0');
+            tiles.push_back(tile);
+        }
+        check({.big = big, .tile = 16, .parts = tiles}, false, "tiles");
+    }
+    const auto pixel = [&](const TiffMaker& maker) {
+        const auto decoded = decode(maker.file(), "a.tif");
+        REQUIRE(decoded);
+        return std::vector<int>(decoded->rgba8.begin(), decoded->rgba8.begin() + 8);
+    };
+    std::vector<std::uint16_t> palette(48);
+    palette[1] = 0xff00, palette[16 + 2] = 0x8000;
+    CHECK(pixel({.width = 2, .height = 1, .samples = 1, .bits = 4, .photometric = 3, .palette = palette, .parts = {"\x12"}}) ==
+          std::vector<int>{255, 0, 0, 255, 0, 128, 0, 255});
+    CHECK(pixel({.width = 2, .height = 1, .samples = 1, .bits = 1, .photometric = 0, .parts = {"\x40"}}) ==
+          std::vector<int>{255, 255, 255, 255, 0, 0, 0, 255});
+    CHECK(pixel({.width = 2, .height = 1, .samples = 2, .photometric = 1, .parts = {"abcd"}}) ==
+          std::vector<int>{'a', 'a', 'a', 'b', 'c', 'c', 'c', 'd'});
+    for (const TiffMaker& wrong : {TiffMaker{.compression = 7, .parts = {rgb}},
+                                   {.samples = 2, .parts = {rgb}},
+                                   {.bits = 32, .parts = {rgb}},
+                                   {.parts = {rgb.substr(1)}},
+                                   {.width = 20000, .parts = {rgb}},
+                                   {.compression = 5, .parts = {rgb}}})
+        CHECK_FALSE(decode(wrong.file(), "a.tif"));
+}
 
 TEST_CASE("pictures: PNG, BMP and TGA come back as they were written, alpha too", "[io][picture]") {
     const Image image = pattern();

@@ -55,7 +55,8 @@ TEST_CASE("scanner: words and numbers by one rule", "[io][text]") {
     document.geometry.set_limit(1000);
     std::vector<std::string_view> kept;
     io::detail::TextScanner scanner(
-        "one \t two\v# a comment\r\n#kept 1\n\n  1.5 2, 3;4 0,5 1.5D+01 -2.f nan(ind) 1,2,3 word 7\nlast \\\nname # no\nMaterial #25 \n\x1A",
+        "one \t two\v# a comment\r\n#kept 1\n\n  1.5 2, 3;4 0,5 1.5D+01 -2.f nan(ind) 1,2,3 word 7\nlast \\\nname # no\nMaterial #25 "
+        "\n\x1A",
         document, "", true);
     scanner.keep_comments("#kept ", kept);
     CHECK(scanner.word() == "one");
@@ -152,8 +153,8 @@ TEST_CASE("STL: attributes that writers set where they have no colour are none",
         return std::pair(scene.meshes.at(0).colors, scene.materials.at(0).base_color);
     };
     const std::string meshlab = "STL MeshLab COLOR=\x7f\x7f\x7f\xff MATERIAL=", magics = std::string("COLOR=\xff\0\0\xff", 10);
-    for (const auto& [title, attribute] : {std::pair(meshlab, 0), {std::string("x"), 0}, {std::string("x"), 0xffff}, {meshlab, 0xffff},
-                                           {std::string("x"), 0x8000}}) {
+    for (const auto& [title, attribute] :
+         {std::pair(meshlab, 0), {std::string("x"), 0}, {std::string("x"), 0xffff}, {meshlab, 0xffff}, {std::string("x"), 0x8000}}) {
         const auto value = static_cast<std::uint16_t>(attribute);
         const auto [colors, base] = colors_of(title, value, value);
         CHECK(colors.empty());
@@ -181,7 +182,8 @@ TEST_CASE("models: the kind of a text is a score over its first lines", "[io]") 
 }
 
 TEST_CASE("models: a file that has nothing but faults is refused with the first one", "[io]") {
-    for (const char* text : {"v a b c\nv d e f\nf 1 2 3\n", "solid a\nfacet normal 0 0 1\nouter loop\nvertex x y z\nvertex 1 0 0\nvertex 0 1 0\n"}) {
+    for (const char* text :
+         {"v a b c\nv d e f\nf 1 2 3\n", "solid a\nfacet normal 0 0 1\nouter loop\nvertex x y z\nvertex 1 0 0\nvertex 0 1 0\n"}) {
         const auto loaded = load_any(to_bytes(text), LoadOptions{});
         REQUIRE_FALSE(loaded);
         CHECK(loaded.error().code == ErrorCode::bad_input);
@@ -200,9 +202,9 @@ TEST_CASE("OFF: words wherever lines end, other numbers of channels, and binary 
         for (const unsigned i : polygon) body += std::to_string(i) + "\n";
     }
     counts = fmt::format("{} {} 0\n", shape.points.size(), shape.polygons.size());
-    for (const std::string& text : {"OFF\n" + counts + body, each("OFF\n" + counts + body, "\n", " "), "off\n" + counts + body,
-                                    "OFF\n" + each(counts, " ", "\n") + body, each("OFF " + counts + body, "\n", "\r\n"),
-                                    "OFF\n" + each(counts, " 0", "") + body}) {
+    for (const std::string& text :
+         {"OFF\n" + counts + body, each("OFF\n" + counts + body, "\n", " "), "off\n" + counts + body,
+          "OFF\n" + each(counts, " ", "\n") + body, each("OFF " + counts + body, "\n", "\r\n"), "OFF\n" + each(counts, " 0", "") + body}) {
         const LoadedScene made = read(text);
         check_same_surface(made, expected);
         CHECK(made.warnings.empty());
@@ -278,7 +280,8 @@ TEST_CASE("PLY: comments in the body, other names and types, and values that are
 
 TEST_CASE("PLY: flat clouds lie, in float32 too, and reliefs stand", "[io][ply]") {
     const auto cloud = [](const std::string& type, double height) {
-        std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex 400\nproperty {0} x\nproperty {0} y\nproperty {0} z\nend_header\n", type);
+        std::string text =
+            fmt::format("ply\nformat ascii 1.0\nelement vertex 400\nproperty {0} x\nproperty {0} y\nproperty {0} z\nend_header\n", type);
         for (int i = 0; i < 400; ++i) text += fmt::format("{} {} {}\n", i % 20, i / 20, i % 7 * height / 6);
         return read(text);
     };
@@ -294,7 +297,8 @@ TEST_CASE("OBJ: normals against the winding are turned", "[io][obj]") {
     const auto normals_of = [&](const std::string& text) {
         const Mesh mesh = read(text).scene.meshes.at(0);
         for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-            const Vec3f a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]], c = mesh.positions[mesh.indices[t + 2]];
+            const Vec3f a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
+                        c = mesh.positions[mesh.indices[t + 2]];
             for (std::size_t k = 0; k < 3; ++k) CHECK(dot(cross(b - a, c - a), mesh.normals[mesh.indices[t + k]]) > 0);
         }
     };

@@ -56,6 +56,9 @@ struct Abilities {
 };
 [[nodiscard]] Abilities abilities();
 
+/// Processor time of the processes that this one has run, seconds; 0 where the system does not tell.
+[[nodiscard]] double processor_s_of_children();
+
 struct RunSettings {
     std::string input{};                                             ///< its standard input
     std::vector<std::pair<std::string, std::string>> environment{};  ///< added to ours

@@ -109,6 +109,13 @@ bool make_link(const std::filesystem::path& target, const std::filesystem::path&
 
 bool make_pipe(const std::filesystem::path& path) { return ::mkfifo(path.c_str(), 0600) == 0; }
 
+double processor_s_of_children() {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
 Abilities abilities() { return {true, true, true, true, true, true, true}; }
 
 Outcome run_program(const std::vector<std::string>& given, const RunSettings& settings) {

@@ -102,6 +102,8 @@ bool make_link(const std::filesystem::path& target, const std::filesystem::path&
 
 bool make_pipe(const std::filesystem::path& /*path*/) { return false; }
 
+double processor_s_of_children() { return 0; }
+
 Abilities abilities() {
     const bool is_wine = GetProcAddress(GetModuleHandleW(L"ntdll.dll"), "wine_get_version") != nullptr;
     return {false, false, false, !is_wine, false, !is_wine, false};  // wine knows jobs without limits

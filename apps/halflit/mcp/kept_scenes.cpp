@@ -14,9 +14,9 @@ namespace {
 
 /// All that decides what is loaded. A new member does not compile here until it is added.
 auto key_of(const LoadLimits& limits) {
-    const auto& [file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, lights, seconds] = limits;
+    const auto& [file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, work, lights, seconds] = limits;
     (void)seconds;  // decides whether it is loaded
-    return std::tuple(file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, lights);
+    return std::tuple(file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, work, lights);
 }
 auto key_of(const LoadOptions& options) {
     const auto& [strict, external, limits, threads, recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate] = options;

@@ -55,6 +55,9 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
                         "more pixels of textures than this; keep textures smaller, so that they fit in so many bytes", kAny),
              limit_flag("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20),
              limit_flag("--max-geometry-bytes", limits.max_geometry_bytes, "more memory for vertices and triangles", kAny),
+             limit_flag("--max-work", limits.max_work,
+                        "files and frames of more work, in nanoseconds of one core by estimate; without it, small files get some seconds",
+                        kAny),
              limit_flag("--max-lights", limits.max_lights, "more lights", 1 << 20)}};
 }
 

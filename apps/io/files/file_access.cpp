@@ -201,7 +201,7 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
         return refuse(folders_.size() > (has_base_ ? 1 : 0) ? "leads out of the model's folder and of those that are allowed"
                                                             : "leads out of the model's folder");
     if (error == ENOENT) return refuse("no such file");
-    return fail(error == ENOMEM          ? ErrorCode::limit
+    return fail(error == ENOMEM        ? ErrorCode::limit
                 : means_no_file(error) ? ErrorCode::bad_input
                                        : ErrorCode::io,
                 fmt::format("\"{}\": cannot be opened: {}", shown, platform::errno_text(error)));

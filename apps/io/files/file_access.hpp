@@ -34,8 +34,8 @@ public:
     /// An error (usage) that names the first folder of `also_allowed` which cannot be opened.
     [[nodiscard]] Result<void> check() const;
 
-    /// `relative` uses '/' and has been percent-decoded. Errors: bad_input where there is no such file or it may not be read from here, limit
-    /// above `max_bytes` or without memory, io for every other fault of the file system; the message has no file prefix.
+    /// `relative` uses '/' and has been percent-decoded. Errors: bad_input where there is no such file or it may not be read from here,
+    /// limit above `max_bytes` or without memory, io for every other fault of the file system; the message has no file prefix.
     [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view relative, std::size_t max_bytes);
     /// The same for a name as programs write it: '\\' between folders, "?query" at its end, letters in another case than one file has, or a
     /// folder of another computer, where a file of that name lies beside the model or in its folder textures. found: the name that was

@@ -3,10 +3,12 @@
 
 #include "apps/io/files/text.hpp"
 #include "halflit/error.hpp"
+#include "halflit/model.hpp"
 #include "sh/fp_environment.hpp"
 #include "sh/time_limit.hpp"
 #include "shading/out_of_time.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <new>
@@ -57,6 +59,12 @@ auto errors_of(const std::string& name, double time_limit_s, const Make& make) -
     } catch (const std::bad_alloc&) {  // of the message
         return fail(ErrorCode::limit, "out of memory");
     }
+}
+
+/// Work that a file of this size may take.
+[[nodiscard]] inline std::uint64_t allowed_work(const LoadLimits& limits, std::uint64_t bytes) {
+    constexpr std::uint64_t kFree = 4'000'000'000, kByByte = 2'000;
+    return limits.max_work > 0 ? limits.max_work : kFree + kByByte * std::min(bytes, std::uint64_t{1} << 48);
 }
 
 /// Memory that a file may still use.

@@ -89,6 +89,7 @@ namespace {
 
 LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     check_threads(options);
+    const WorkLimit work(allowed_work(options.limits, bytes.size()));
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
     check_time();
     choose_scene(*document);
@@ -138,6 +139,7 @@ LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_di
     }
     if (!motion) make_visible(*document, loaded.scene);
     loaded.scene.calibrated = loaded.scene.lights.empty();
+    loaded.scene.frame_work = document->allowed_work();
     const std::vector<std::string_view>& used = document->file.extensions_used;
     loaded.scene.faces_back = std::find(used.begin(), used.end(), "VRM") != used.end();  // VRM 0.x; avatars of VRM 1.0 face +z
     if (loaded.scene.instances.empty() && document->first_failure) throw LoadFailure{*document->first_failure};  // nothing is left

@@ -284,6 +284,7 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     loaded_.warnings = document_->take_warnings();
     loaded_.info = std::move(info);
     loaded_.scene.calibrated = true;
+    loaded_.scene.frame_work = document_->allowed_work();
     return std::move(loaded_);
 }
 

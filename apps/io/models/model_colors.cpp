@@ -75,10 +75,10 @@ Vec4f viridis(double t) {
 
 Vec4f label_color(double label) {
     // Kelly's colours of greatest contrast, without white, black and grey.
-    static constexpr double kCodes[19][3] = {{243, 195, 0},  {135, 86, 146},  {243, 132, 0},  {161, 202, 241}, {190, 0, 50},
-                                             {194, 178, 128}, {0, 136, 86},    {230, 143, 172}, {0, 103, 165},   {249, 147, 121},
-                                             {96, 78, 151},   {246, 166, 0},   {179, 68, 108}, {220, 211, 0},   {136, 45, 23},
-                                             {141, 182, 0},   {101, 69, 34},   {226, 88, 34},  {43, 61, 38}};
+    static constexpr double kCodes[19][3] = {{243, 195, 0},   {135, 86, 146}, {243, 132, 0},   {161, 202, 241}, {190, 0, 50},
+                                             {194, 178, 128}, {0, 136, 86},   {230, 143, 172}, {0, 103, 165},   {249, 147, 121},
+                                             {96, 78, 151},   {246, 166, 0},  {179, 68, 108},  {220, 211, 0},   {136, 45, 23},
+                                             {141, 182, 0},   {101, 69, 34},  {226, 88, 34},   {43, 61, 38}};
     static constexpr double kGrey[3] = {132, 132, 130};
     if (!(label >= 1 && label < 9e15)) return linear_of_codes(kGrey);
     return linear_of_codes(kCodes[(static_cast<std::uint64_t>(label) - 1) % std::size(kCodes)]);

@@ -81,6 +81,7 @@ namespace {
 
 LoadedScene read_model(const ModelFile& file, const LoadOptions& options) {
     const std::span<const std::byte> bytes = file.bytes;
+    const WorkLimit work(allowed_work(options.limits, bytes.size()));
     if (bytes.size() > options.limits.max_file_bytes)
         refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
                ErrorCode::limit);

@@ -65,8 +65,8 @@ bool TextScanner::parse_odd_number(double& value) {
     if (!strict) {
         // "1.5, 2", "1.5;2" and "1,2,3": the number ends at the first of them. A single comma without a point is decimal.
         const bool is_part = at_ > begin_ && (at_[-1] == ',' || at_[-1] == ';');
-        const bool is_decimal = !is_part && std::count(word.begin(), word.end(), ',') == 1 && word.find_first_of(".;") == std::string_view::npos &&
-                                word.back() != ',';
+        const bool is_decimal = !is_part && std::count(word.begin(), word.end(), ',') == 1 &&
+                                word.find_first_of(".;") == std::string_view::npos && word.back() != ',';
         if (const std::size_t part = is_decimal ? std::string_view::npos : word.find_first_of(",;"); part != std::string_view::npos) {
             word = word.substr(0, part);
             behind = at_ + part + 1;
@@ -103,9 +103,9 @@ double TextScanner::wrong(std::string_view found, std::string_view expected) {
 }
 
 void TextScanner::refuse_word(std::string_view found, std::string_view expected) const {
-    refuse(where(), !found.empty()   ? fmt::format("expected {}, found \"{}\"", expected, printable(found, 40))
-                    : at_ == end_ ? fmt::format("expected {}, the file ends: it was cut off", expected)
-                                  : fmt::format("expected {}, the line ends", expected));
+    refuse(where(), !found.empty() ? fmt::format("expected {}, found \"{}\"", expected, printable(found, 40))
+                    : at_ == end_  ? fmt::format("expected {}, the file ends: it was cut off", expected)
+                                   : fmt::format("expected {}, the line ends", expected));
 }
 
 std::string TextScanner::where() const {
@@ -118,7 +118,7 @@ void TextScanner::warn() {
         if (noted->count == 0) continue;
         const std::string others = noted->count > 1 ? fmt::format(" (and {} more)", noted->count - 1) : "";
         document_->go_on_without({{ErrorCode::bad_input, noted->first + others}},
-                                noted == &unknown_ ? "passed over" : "what needs the value is left out");
+                                 noted == &unknown_ ? "passed over" : "what needs the value is left out");
         noted->count = 0;
     }
 }

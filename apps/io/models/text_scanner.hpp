@@ -121,9 +121,7 @@ public:
 private:
     static bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
     static bool is_end(char c) { return c == '\n' || c == '\r'; }
-    [[nodiscard]] bool is_joined_end(const char* at) const {
-        return joined_lines_ && *at == '\\' && at + 1 < end_ && is_end(at[1]);
-    }
+    [[nodiscard]] bool is_joined_end(const char* at) const { return joined_lines_ && *at == '\\' && at + 1 < end_ && is_end(at[1]); }
     /// Goes to the next word of this line. False: it has no more.
     bool find_word() {
         for (; at_ < end_; ++at_) {

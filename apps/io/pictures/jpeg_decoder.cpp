@@ -24,8 +24,8 @@ struct Decoder {
     jpeg_progress_mgr progress{};
     std::jmp_buf escape{};
     char message[JMSG_LENGTH_MAX] = "";
-    int max_scans = 0;
-    bool keep_damaged = false, too_many_scans = false, out_of_memory = false, out_of_time = false;
+    int max_scans = 0, scans = 1;
+    bool keep_damaged = false, too_many_scans = false, out_of_memory = false, out_of_time = false, out_of_work = false;
 
     Decoder() {
         info.err = jpeg_std_error(&errors);
@@ -51,6 +51,16 @@ struct Decoder {
     Decoder(const Decoder&) = delete;
     Decoder& operator=(const Decoder&) = delete;
 
+    /// Each further scan is a pass over the picture. Exceptions do not pass through libjpeg.
+    void charge_scan() {
+        constexpr std::uint64_t kUnitsAPixel = 4;
+        try {
+            charge_work(kUnitsAPixel * info.image_width * info.image_height);
+        } catch (const OutOfTime&) {
+            out_of_work = true;
+        }
+    }
+
     bool read_header(std::span<const std::byte> file) {
         if (setjmp(escape) != 0) return false;
         jpeg_create_decompress(&info);
@@ -68,7 +78,8 @@ struct Decoder {
             auto* self = static_cast<Decoder*>(common->client_data);
             self->too_many_scans = self->info.input_scan_number > self->max_scans;
             self->out_of_time = time_is_over();
-            if (!self->too_many_scans && !self->out_of_time) return;
+            for (; self->scans < self->info.input_scan_number && !self->out_of_work; ++self->scans) self->charge_scan();
+            if (!self->too_many_scans && !self->out_of_time && !self->out_of_work) return;
             std::longjmp(self->escape, 1);
         };
         info.progress = &progress;
@@ -101,6 +112,7 @@ struct Decoder {
             check_time();
             throw OutOfTime{};
         }
+        if (out_of_work) throw OutOfTime{.is_work = true};
         if (too_many_scans) return fail(ErrorCode::limit, fmt::format("JPEG: more than {} scans, which is max_jpeg_scans", max_scans));
         return fail(out_of_memory ? ErrorCode::limit : ErrorCode::bad_input, fmt::format("JPEG: {}", message));
     }

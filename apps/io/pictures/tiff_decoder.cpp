@@ -193,18 +193,20 @@ Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLim
     if (!header) return tl::unexpected(header.error());
     const TiffFile tiff(file);
     const auto width = static_cast<std::uint32_t>(header->width), height = static_cast<std::uint32_t>(header->height);
-    Layout layout{tiff.first(kBits, 1), tiff.first(kSamples, 1), tiff.first(kPhotometric, 1), tiff.first(kCompression, 1),
-                  tiff.first(kPredictor, 1), false};
+    Layout layout{tiff.first(kBits, 1),        tiff.first(kSamples, 1),   tiff.first(kPhotometric, 1),
+                  tiff.first(kCompression, 1), tiff.first(kPredictor, 1), false};
     const bool is_palette = layout.photometric == 3, is_color = layout.photometric == 2;
     layout.has_alpha = layout.samples == (is_color ? 4u : 2u) && tiff.first(kExtra, 2) != 0;
-    const bool can_read = layout.photometric <= 3 && layout.samples >= (is_color ? 3u : 1u) && layout.samples <= 8 &&
-                          (layout.bits == 8 || (layout.bits == 16 && !is_palette) || (layout.bits < 8 && 8 % layout.bits == 0 && layout.samples == 1));
+    const bool can_read =
+        layout.photometric <= 3 && layout.samples >= (is_color ? 3u : 1u) && layout.samples <= 8 &&
+        (layout.bits == 8 || (layout.bits == 16 && !is_palette) || (layout.bits < 8 && 8 % layout.bits == 0 && layout.samples == 1));
     const std::uint32_t compression = layout.compression;
     if (!can_read || (compression != 1 && compression != 5 && compression != 8 && compression != 32773 && compression != 32946) ||
         tiff.first(kPlanes, 1) != 1 || tiff.first(kSampleFormat, 1) != 1 || layout.predictor > 2)
-        return fail(ErrorCode::bad_input, fmt::format("TIFF: expected whole numbers of 1 to 16 bits, plain or by LZW, deflate or PackBits, found "
-                                                      "{} samples of {} bits, photometry {}, compression {}, predictor {}",
-                                                      layout.samples, layout.bits, layout.photometric, compression, layout.predictor));
+        return fail(ErrorCode::bad_input,
+                    fmt::format("TIFF: expected whole numbers of 1 to 16 bits, plain or by LZW, deflate or PackBits, found "
+                                "{} samples of {} bits, photometry {}, compression {}, predictor {}",
+                                layout.samples, layout.bits, layout.photometric, compression, layout.predictor));
     const bool is_tiled = tiff.find(kTileOffsets).has_value();
     const auto offsets = tiff.find(is_tiled ? kTileOffsets : kOffsets), sizes = tiff.find(is_tiled ? kTileSizes : kSizes);
     const auto palette = tiff.find(kPalette);
@@ -234,7 +236,7 @@ Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLim
         if (!unpack(layout, packed, part)) return damaged("a strip or tile is damaged or cut off");
         for (std::uint32_t y = 0; y < std::min(rows, height - top); ++y) {
             const std::span row(part.data() + row_bytes * y, row_bytes);
-            if (layout.predictor == 2) add_differences(layout, tiff.is_big(), row);
+            if (layout.predictor == 2 && compression != 1 && compression != 32773) add_differences(layout, tiff.is_big(), row);
             const auto sample = [&](std::uint32_t x, std::uint32_t c) -> std::uint32_t {
                 const std::size_t at = std::size_t{x} * layout.samples + c;
                 if (layout.bits == 16) return row[2 * at + (tiff.is_big() ? 0 : 1)];  // the high byte
@@ -246,7 +248,7 @@ Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLim
                 std::uint8_t* const to = &image.rgba8[4 * (std::size_t{top + y} * width + left + x)];
                 for (std::uint32_t c = 0; c < 3; ++c) {
                     const std::uint32_t value = sample(x, is_color ? c : 0);
-                    const std::uint32_t code = is_palette ? tiff.value(*palette, (std::size_t{c} << layout.bits) + value) >> 8
+                    const std::uint32_t code = is_palette        ? tiff.value(*palette, (std::size_t{c} << layout.bits) + value) >> 8
                                                : layout.bits < 8 ? value * 255 / most
                                                                  : value;
                     to[c] = static_cast<std::uint8_t>(layout.photometric == 0 ? 255 - code : code);

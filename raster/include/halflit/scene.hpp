@@ -8,6 +8,7 @@
 #include "halflit/mesh.hpp"
 #include "halflit/texture.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Scene : Lighting {
     std::vector<Texture> textures;    ///< shared by materials
     std::vector<Camera> cameras;      ///< views to choose from; none is in use by itself
     bool faces_back = false;          ///< its front is towards -z: auto_setup looks from there
+    /// Work that a frame may take beside what its pixels allow, in nanoseconds of one core by estimate; beyond it the frame fails (limit).
+    /// 0: no limit. Loaders set it by the size of the file, so that a small file cannot take long.
+    std::uint64_t frame_work = 0;
 };
 
 /// World-space bounds of everything drawn but shadow catchers. Vertices that are not finite are left out.

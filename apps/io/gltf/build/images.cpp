@@ -27,6 +27,13 @@ std::uint64_t texture_bytes(int width, int height) {
 /// Pixels that may be decoded for each byte of max_texture_bytes, which bounds the time: 16 pictures of 8192 x 8192 for 1 GiB.
 constexpr std::uint64_t kMostPixelsAByte = 1;
 
+/// Memory that the textures may take: small files, whose pictures hold little, get less.
+std::uint64_t texture_limit(const Document& document) {
+    constexpr std::uint64_t kFree = std::uint64_t{320} << 20, kByByte = 4096;
+    const std::uint64_t most = document.options.limits.max_texture_bytes;
+    return document.options.strict ? most : std::min(most, kFree + kByByte * (document.file_bytes + document.named_bytes));
+}
+
 /// Takes a picture that is lost out of a material. A factor that scales what the picture has only here and there is off without it.
 void leave_out(Material& material, TextureSlot slot) {
     material.textures[slot] = {};
@@ -118,6 +125,8 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
         refuse(where, fmt::format("the textures would take more than {} bytes, which is max_texture_bytes", limits.max_texture_bytes),
                ErrorCode::limit);
     texture_bytes_ = bytes_of_all;
+    constexpr std::uint64_t kUnitsAPixel = 20;  // of a picture of one scan, with its smaller levels
+    charge_work(kUnitsAPixel * static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height));
     return {.texture = texture,
             .space = space,
             .rule = rule,
@@ -184,7 +193,7 @@ std::size_t ImageStore::other_threads() const {
     }
     // All pictures that are decoded at a time take no more than the textures may.
     constexpr std::size_t kBytesAPixel = 8;
-    const std::size_t fitting = std::max<std::size_t>(1, document_.options.limits.max_texture_bytes / kBytesAPixel / largest);
+    const std::size_t fitting = std::max<std::size_t>(1, texture_limit(document_) / kBytesAPixel / largest);
     return std::min({allowed_threads(document_.options.threads) - 1, fitting - 1, jobs_.size(), pixels / kPixelsAThread});
 }
 
@@ -193,7 +202,7 @@ void ImageStore::run_jobs() {
 }
 
 void ImageStore::fit_memory() {
-    const std::uint64_t limit = document_.options.limits.max_texture_bytes;
+    const std::uint64_t limit = texture_limit(document_);
     if (texture_bytes_ <= limit) return;
     const auto bytes_of = [](const Job& job) {
         return texture_bytes(std::max(1, job.width >> job.skip_levels), std::max(1, job.height >> job.skip_levels));
@@ -225,8 +234,9 @@ void ImageStore::fit_memory() {
     }
     const std::string share = least == most ? fmt::format("1/{}", 1 << most) : fmt::format("1/{} to 1/{}", 1 << least, 1 << most);
     const auto megabytes = [](std::uint64_t n) { return static_cast<double>(n) / 1e6; };
-    document_.warn(fmt::format("the textures would take {:.3g} MB, max_texture_bytes is {:.3g} MB: {} of {} are kept at {} of their sides",
-                               megabytes(texture_bytes_), megabytes(limit), reduced, jobs_.size(), share));
+    document_.warn(fmt::format(
+        "the textures would take {:.3g} MB, the limit for a file of this size is {:.3g} MB: {} of {} are kept at {} of their sides",
+        megabytes(texture_bytes_), megabytes(limit), reduced, jobs_.size(), share));
 }
 
 void ImageStore::start() {

@@ -20,9 +20,12 @@ void Document::warn(std::string what) {
 
 Result<std::vector<std::byte>> Document::read_named(std::string_view name) {
     const std::size_t most = options.limits.max_file_bytes;
-    if (options.strict) return folder.read(name, most);
-    std::string found;
-    auto bytes = folder.read_like(name, most, found);
+    std::string found(name);
+    auto bytes = options.strict ? folder.read(name, most) : folder.read_like(name, most, found);
+    if (bytes) {
+        named_bytes += bytes->size();
+        grant_work(allowed_work() - detail::allowed_work(options.limits, file_bytes + named_bytes - bytes->size()));
+    }
     if (bytes && found != name)
         warn(fmt::format("\"{}\": there is no such file, \"{}\" is read", printable(name, 120), printable(found, 120)));
     return bytes;

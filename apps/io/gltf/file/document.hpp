@@ -39,7 +39,8 @@ struct Document {
     SceneInfo info;
     /// Materials behind those of the file, without light, for points and lines without normals: copies of these, -1 being the default one.
     std::vector<int> unlit_copies;
-    std::uint64_t file_bytes = 0;  ///< of the model's own file
+    std::uint64_t file_bytes = 0;   ///< of the model's own file
+    std::uint64_t named_bytes = 0;  ///< of files that it names, as far as they were read
     Budget geometry{"the geometry", 0}, encoded_images;
     std::optional<Error> first_failure;  ///< of what is left out
 
@@ -49,6 +50,8 @@ struct Document {
     /// The file of a name that the model gives, at most max_file_bytes; unless strict, of one like it (ModelFolder::read_like), with a
     /// warning.
     [[nodiscard]] Result<std::vector<std::byte>> read_named(std::string_view name);
+    /// Work that files of this size may take; see LoadLimits::max_work.
+    [[nodiscard]] std::uint64_t allowed_work() const { return detail::allowed_work(options.limits, file_bytes + named_bytes); }
     /// Adds a warning; the first hundred different ones are kept.
     void warn(std::string what);
     /// The warnings, the last of which counts those that are left out.

@@ -48,7 +48,8 @@ struct LoadLimits {
     int max_json_depth = 64;                             ///< objects and arrays inside each other
     std::size_t max_json_tokens = 50'000'000;            ///< names and values
     /// All textures, as the renderer keeps them (10.7 bytes a pixel), broken ones too. Above it, the largest are kept at a half of their
-    /// sides, or less, with a warning, unless strict. Pictures that together have more pixels than this are refused.
+    /// sides, or less, with a warning, unless strict. Small files get less: 320 MiB and 4,096 bytes for each of their own. Pictures that
+    /// together have more pixels than this are refused.
     std::size_t max_texture_bytes = std::size_t{1} << 30;
     int max_texture_side = 16384;                            ///< texels; at most kMaxTextureSide
     std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
@@ -57,6 +58,9 @@ struct LoadLimits {
     /// needs more, and a crafted one cannot become many times larger than its file. Compressed data (meshopt, Draco) count twice. The JSON
     /// objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
+    /// Work that loading takes beside reading, and that each frame of the scene takes beside its pixels' (Scene::frame_work), in
+    /// nanoseconds of one core by estimate. 0: by the file's size, 4e9 and 2,000 for each byte, so that no small file takes long.
+    std::uint64_t max_work = 0;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
 };
