@@ -1,6 +1,7 @@
 #include "halflit/auto_setup.hpp"
 
 #include "raster/completed_light.hpp"
+#include "raster/detail/guarded.hpp"
 #include "raster/view/projection.hpp"
 #include "raster/view/suited_background.hpp"
 #include "sh/fp_environment.hpp"
@@ -200,8 +201,9 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     return setup;
 }
 
-Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request) {
-    const FpEnvironment environment_of_host;
+namespace {
+
+Result<PictureChoice> chosen_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request) {
     const Camera* chosen = request.camera ? &*request.camera : request.frame ? nullptr : choose_camera(scene, bounds);
     if (request.scene_camera && !request.camera) {
         const auto found = find_camera(scene.cameras, *request.scene_camera);
@@ -221,9 +223,20 @@ Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, c
     return choice;
 }
 
+}  // namespace
+
+Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request) {
+    return raster::guarded("choosing a picture", {}, [&] {
+        const WorkLimit work(scene.frame_work);
+        return chosen_picture(scene, bounds, request);
+    });
+}
+
 Result<PictureChoice> choose_picture(const Scene& scene, const PictureRequest& request) {
-    const FpEnvironment environment_of_host;
-    return choose_picture(scene, scene_bounds(scene), request);
+    return raster::guarded("choosing a picture", {}, [&] {
+        const WorkLimit work(scene.frame_work);
+        return chosen_picture(scene, scene_bounds(scene), request);
+    });
 }
 
 AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options) {

@@ -75,14 +75,17 @@ HALFLIT_API void grant_work(std::uint64_t units);
 /// the caller's function.
 HALFLIT_API void check_time();
 
-/// Asks for the time once in 65,536 calls. For loops whose steps take nanoseconds.
+/// Asks for the time once in 65,536 calls, and charges their work: for loops whose steps take nanoseconds.
 class TimeCheck {
 public:
     void operator()() {
-        if (++steps_ % 65536 == 0) check_time();
+        if (++steps_ % kSteps != 0) return;
+        check_time();
+        charge_work(kUnitsAStep * kSteps);
     }
 
 private:
+    static constexpr std::uint32_t kSteps = 65536, kUnitsAStep = 8;
     std::uint32_t steps_ = 0;
 };
 

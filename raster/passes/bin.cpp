@@ -6,6 +6,7 @@
 #include "raster/passes/used_vertices.hpp"
 #include "raster/passes/view_geometry.hpp"
 #include "raster/view/culling.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -274,6 +275,8 @@ private:
 
     /// Ends the call if it holds too much memory or is to stop.
     void count_memory() {
+        constexpr std::uint64_t kUnitsATriangle = 40;
+        charge_work(kUnitsATriangle * static_cast<std::uint64_t>(since_check_));
         since_check_ = 0;
         in_.stop.check();
         chunk_.memory.hold(in_.stop, chunk_.bytes());

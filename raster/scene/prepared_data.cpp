@@ -98,6 +98,8 @@ void PreparedData::place(std::size_t index) {
         instance_bounds_[index] = {};
         return;
     }
+    constexpr std::uint64_t kUnitsAVertex = 8;
+    charge_work(kUnitsAVertex * source_mesh(instance.mesh).positions.size());
     instance_bounds_[index] = placed_bounds(source_mesh(instance.mesh), mesh(instance.mesh), instance.world_from_object);
 }
 
@@ -185,6 +187,7 @@ void PreparedData::collect() {
 
 Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& execution) {
     return guarded("preparing a scene", execution, [&]() -> Result<PreparedData> {
+        const WorkLimit work(scene.frame_work);
         Executor executor;
         executor.configure(execution);
         PreparedData prepared;

@@ -131,7 +131,8 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
         return all;
     }();
     auto choice = choose_picture(job.scene(), job.film.bounds, request);
-    if (!choice) return fail(choice.error().code, "--" + choice.error().message);
+    if (!choice && choice.error().code == ErrorCode::usage) return fail(choice.error().code, "--" + choice.error().message);
+    if (!choice) return fail(choice.error().code, job.source.name + ": " + choice.error().message);
     job.width = choice->size.width, job.height = choice->size.height;
     if (const auto checked = check_size(choice->size, options.settings.region); !checked) return checked;
     job.light = std::move(choice->light);
@@ -422,7 +423,7 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
 
     const Stopwatch preparing;
     auto prepared = PreparedScene::make(job.scene(), job.timed_execution());
-    if (!prepared) return tl::unexpected(prepared.error());
+    if (!prepared) return fail(prepared.error().code, job.source.name + ": " + prepared.error().message);
     job.prepared = std::move(*prepared);
     job.prepare_ms = preparing.ms();
     if (!moves) job.film.bounds = job.prepared->bounds();

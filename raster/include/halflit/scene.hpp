@@ -22,8 +22,8 @@ struct Scene : Lighting {
     std::vector<Texture> textures;    ///< shared by materials
     std::vector<Camera> cameras;      ///< views to choose from; none is in use by itself
     bool faces_back = false;          ///< its front is towards -z: auto_setup looks from there
-    /// Work that a frame may take beside what its pixels allow, in nanoseconds of one core by estimate; beyond it the frame fails (limit).
-    /// 0: no limit. Loaders set it by the size of the file, so that a small file cannot take long.
+    /// Work that preparing it, choosing its picture, and a frame beside what its pixels allow may take, in nanoseconds of one core by
+    /// estimate; beyond it they fail (limit). 0: no limit. Loaders set it by the size of the file, so that a small file cannot take long.
     std::uint64_t frame_work = 0;
 };
 
