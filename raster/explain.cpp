@@ -4,6 +4,7 @@
 #include "raster/detail/view_math.hpp"
 #include "raster/ray_hits.hpp"
 #include "raster/scene/instance_material.hpp"
+#include "raster/view/depth_range.hpp"
 #include "sh/mat4.hpp"
 #include "sh/power.hpp"
 #include "sh/vec3d.hpp"
@@ -58,7 +59,12 @@ class PixelProbe {
 public:
     PixelProbe(Renderer& renderer, const PreparedScene& scene, const Lighting& light, const Camera& camera, const Settings& settings,
                PictureSize size, int x, int y, const Execution& execution)
-        : renderer_(renderer), prepared_(scene), light_(light), camera_(camera), settings_(settings), execution_(execution) {
+        : renderer_(renderer),
+          prepared_(scene),
+          light_(light),
+          camera_(drawn_camera(camera, scene.data())),
+          settings_(settings),
+          execution_(execution) {
         settings_.region = {x, y, 1, 1};
         execution_.on_tile = {}, execution_.progress = {};
         story_.x = x, story_.y = y, story_.size = size;
@@ -312,7 +318,7 @@ private:
     Renderer& renderer_;
     const PreparedScene& prepared_;
     const Lighting& light_;
-    const Camera& camera_;
+    const Camera camera_;
     Settings settings_;
     Execution execution_;
     PixelStory story_;

@@ -4,6 +4,7 @@
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/surface_distance.hpp"
+#include "raster/view/depth_range.hpp"
 #include "raster/view/soft_shadows.hpp"
 #include "shading/light_cell.hpp"
 #include "shading/sky_lights.hpp"
@@ -270,16 +271,17 @@ ContactShadow plan_contact_shadow(const PreparedData& scene, const Camera& camer
     return {memory.contact_map.map, camera, width, height, settings.contact_shadow};
 }
 
-Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light, const Camera& camera, const Settings& settings, int width,
+Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light, const Camera& given, const Settings& settings, int width,
                             int height, int tile_size, FramePlanMemory& memory) {
     if (auto ok = check_settings(settings, width, height); !ok) return tl::unexpected<Error>(ok.error());
-    if (auto ok = check_camera(camera); !ok) return tl::unexpected<Error>(ok.error());
+    if (auto ok = check_camera(given); !ok) return tl::unexpected<Error>(ok.error());
     if (!prepared.up_to_date()) return fail(ErrorCode::usage, "the last update of the scene failed; no frame is drawn until one succeeds");
     const Scene& scene = prepared.scene();
     const ShadingSettings options = effective(settings.shading);
     std::vector<LightPlan> lights = shading::plan_lights(light.all_lights());
 
     FramePlan plan;
+    const Camera camera = plan.camera = drawn_camera(given, prepared);
     plan.options = options;
     plan.picture = picture_view(camera, width, height, settings.region, tile_size, settings);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
@@ -354,6 +356,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     if (plan.looks_through)
         add_glass_warning(prepared, plan.shading, clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height)),
                           plan.warnings);
+    add_cut_warning(prepared, camera, static_cast<float>(width) / static_cast<float>(height), plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
     return plan;
 }

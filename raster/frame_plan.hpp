@@ -25,6 +25,7 @@
 namespace halflit::raster {
 
 struct FramePlan {
+    Camera camera;  ///< drawn_camera()
     View picture;
     bool cells = false;  ///< the light of some material is fitted in cells
     Region written;      ///< the pixels asked for; the picture's region may be larger, to complete cells or to see what is behind glass

@@ -159,7 +159,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     tiles.work += behind_counts.work, tiles.fragments_shaded += behind_counts.fragments_shaded;
     if (has_lines) {
         const Execution rest = with_time_left(execution, begun.lap() / 1000.0);
-        if (auto ok = draw_edges(scene, camera, settings, output, target.width, target.height, rest, isa); !ok)
+        if (auto ok = draw_edges(scene, plan.camera, settings, output, target.width, target.height, rest, isa); !ok)
             return tl::unexpected<Error>(ok.error());
         if (execution.on_tile)
             for (int tile = 0; tile < plan.picture.tile_count(); ++tile)

@@ -16,7 +16,7 @@ using namespace halflit::c;
 namespace {
 
 /// The camera without a name: it has no scene that keeps one.
-halflit_camera nameless(const Camera& from) {
+halflit_camera nameless(const CallersCamera& from) {
     halflit_camera camera = to_c(from);
     camera.name = nullptr;
     return camera;
@@ -46,14 +46,15 @@ Result<std::vector<ViewSettings>> views_of(const halflit_view* first, std::int32
 }  // namespace
 
 int32_t halflit_camera_init(halflit_camera* camera, size_t size) {
-    return guarded(__func__, {{camera, "camera"}}, [&] { return write_struct(nameless(Camera{}), size, camera, "halflit_camera"); });
+    return guarded(__func__, {{camera, "camera"}}, [&] { return write_struct(nameless({}), size, camera, "halflit_camera"); });
 }
 
 int32_t halflit_camera_look_at(const float eye[3], const float target[3], const float up[3], halflit_camera* to) {
     return guarded(__func__, {{eye, "eye"}, {target, "target"}, {to, "camera"}}, [&]() -> Result<void> {
         auto made = camera(to);
         if (!made) return tl::unexpected<Error>(made.error());
-        made->world_from_camera = look_at(vec3(eye), vec3(target), up != nullptr ? vec3(up) : Vec3f{0, 1, 0});
+        made->camera.world_from_camera = look_at(vec3(eye), vec3(target), up != nullptr ? vec3(up) : Vec3f{0, 1, 0});
+        made->rest = {};
         return write_struct(nameless(*made), to, "halflit_camera");
     });
 }
@@ -70,8 +71,8 @@ int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t
         std::copy_n(rotation, 9, turn.begin());
         auto made = Camera::from_intrinsics(lens, turn, {translation[0], translation[1], translation[2]});
         if (!made) return tl::unexpected<Error>(made.error());
-        made->near_z = before->near_z, made->far_z = before->far_z;
-        return write_struct(nameless(*made), to, "halflit_camera");
+        made->near_z = before->camera.near_z, made->far_z = before->camera.far_z;
+        return write_struct(nameless({*made, {}}), to, "halflit_camera");
     });
 }
 
@@ -88,7 +89,7 @@ int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azi
         view.azimuth_deg = azimuth_deg;
         view.elevation_deg = elevation_deg;
         view.zoom = zoom;
-        return write_struct(nameless(scene->told(frame_scene(scene->scene, aspect, view))), to, "halflit_camera");
+        return write_struct(nameless(scene->world.out(frame_scene(scene->scene, aspect, view))), to, "halflit_camera");
     });
 }
 
@@ -118,7 +119,7 @@ int32_t halflit_camera_view(const halflit_scene* scene, float aspect, const half
         if (auto ok = check_aspect(aspect); !ok) return ok;
         const auto side = view(given);
         if (!side) return tl::unexpected<Error>(side.error());
-        return write_struct(nameless(scene->told(frame_scene(scene->scene, aspect, *side))), to, "halflit_camera");
+        return write_struct(nameless(scene->world.out(frame_scene(scene->scene, aspect, *side))), to, "halflit_camera");
     });
 }
 
@@ -132,7 +133,7 @@ int32_t halflit_camera_views(const halflit_scene* scene, float aspect, const hal
             if (at(to, i)->size != to->size) return fail(ErrorCode::usage, "halflit_camera: the members size of cameras[] differ");
         const std::vector<Camera> cameras = frame_views(scene->scene, scene_bounds(scene->scene), aspect, *sides);
         for (std::int32_t i = 0; i < count; ++i)
-            (void)write_struct(nameless(scene->told(cameras[static_cast<std::size_t>(i)])), at(to, i), "halflit_camera");
+            (void)write_struct(nameless(scene->world.out(cameras[static_cast<std::size_t>(i)])), at(to, i), "halflit_camera");
         return {};
     });
 }
@@ -149,8 +150,8 @@ int32_t halflit_camera_orbit(const double target[3], double azimuth_deg, double 
         if (up < HALFLIT_UP_X || up > HALFLIT_UP_MINUS_Z) members.wrong("up", "is " + std::to_string(up) + ", expected 1 to 6");
         if (!members.result()) return members.result();
         const auto axis = static_cast<UpAxis>(up - 1);
-        const Vec3d upright = turned_upright(Vec3d{target[0], target[1], target[2]}, axis);
-        made->world_from_camera = turned_back(orbit(upright, azimuth_deg, elevation_deg, distance), axis);
+        made->camera.world_from_camera = turned_back(orbit(turned_upright(vec3(target), axis), azimuth_deg, elevation_deg, distance), axis);
+        made->rest = {};
         return write_struct(nameless(*made), to, "halflit_camera");
     });
 }
@@ -167,17 +168,16 @@ int32_t halflit_picture_request_init(halflit_picture_request* request, size_t si
 int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* given, int32_t size[2], halflit_camera* to_camera,
                                halflit_settings* to_settings, halflit_lighting** to_lighting) {
     return reading(__func__, scene, {{to_camera, "camera"}, {to_settings, "settings"}}, [&]() -> Result<void> {
-        auto request = picture_request(given);
+        const auto request = picture_request(given, scene->world);
         if (!request) return tl::unexpected<Error>(request.error());
-        if (request->camera) request->camera = scene->drawn(*request->camera);
         if (auto ok = check_size(to_camera->size, sizeof(halflit_camera), "halflit_camera"); !ok) return ok;
         if (auto ok = check_size(to_settings->size, sizeof(halflit_settings), "halflit_settings"); !ok) return ok;
         auto choice = choose_picture(scene->scene, *request);
         if (!choice) return tl::unexpected<Error>(choice.error());
         if (to_lighting != nullptr) *to_lighting = new halflit_lighting{std::move(choice->light), scene->scene.lights.size()};
         if (size != nullptr) size[0] = choice->size.width, size[1] = choice->size.height;
-        (void)write_struct(nameless(scene->told(choice->camera)), to_camera, "halflit_camera");  // the sizes were checked before
-        return write_struct(to_c(choice->settings), to_settings, "halflit_settings");
+        (void)write_struct(nameless(scene->world.out(choice->camera)), to_camera, "halflit_camera");  // the sizes were checked before
+        return write_struct(to_c(scene->world.out(choice->settings)), to_settings, "halflit_settings");
     });
 }
 

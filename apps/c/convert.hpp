@@ -1,6 +1,7 @@
 // Structs of halflit.h to those of the C++ headers, and back. A struct's defaults are those of its C++ twin.
 #pragma once
 
+#include "apps/c/world.hpp"
 #include "halflit/halflit.h"
 
 #include <halflit/auto_setup.hpp>
@@ -21,18 +22,21 @@ namespace halflit::c {
 
 [[nodiscard]] inline Vec3f vec3(const float v[3]) { return {v[0], v[1], v[2]}; }
 inline void put(Vec3f v, float to[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
+[[nodiscard]] inline Vec3d vec3(const double v[3]) { return {v[0], v[1], v[2]}; }
+inline void put(Vec3d v, double to[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 [[nodiscard]] Mat4 mat4(const float m[16]);
 void put(const Mat4& m, float to[16]);
 
 // Each fails (usage) for a value that has no twin. Null pointers give the defaults where the header allows them.
 [[nodiscard]] Result<LoadOptions> load_options(const halflit_load_options* given);
 [[nodiscard]] Result<Material> material(const halflit_material* given);
-[[nodiscard]] Result<Light> light(const halflit_light* given);
-[[nodiscard]] Result<Camera> camera(const halflit_camera* given);
+[[nodiscard]] Result<CallersLight> light(const halflit_light* given);
+[[nodiscard]] Result<CallersCamera> camera(const halflit_camera* given);
 [[nodiscard]] Result<Settings> settings(const halflit_settings* given);
 [[nodiscard]] Result<ViewSettings> view(const halflit_view* given);
-[[nodiscard]] Result<PictureRequest> picture_request(const halflit_picture_request* given);
-[[nodiscard]] Result<Instance> instance(const halflit_instance* given);
+/// A camera of the request, and lengths, in the world that is drawn.
+[[nodiscard]] Result<PictureRequest> picture_request(const halflit_picture_request* given, const World& world);
+[[nodiscard]] Result<CallersInstance> instance(const halflit_instance* given);
 [[nodiscard]] Result<Execution> execution(const halflit_execution* given);
 struct TextureColor {
     ColorSpace space;
@@ -64,14 +68,14 @@ struct EnvironmentRequest {
 // Strings in these refer to the argument.
 [[nodiscard]] halflit_load_options to_c(const LoadOptions& from);
 [[nodiscard]] halflit_material to_c(const Material& from);
-[[nodiscard]] halflit_light to_c(const Light& from);
-[[nodiscard]] halflit_camera to_c(const Camera& from);
+[[nodiscard]] halflit_light to_c(const CallersLight& from);
+[[nodiscard]] halflit_camera to_c(const CallersCamera& from);
 [[nodiscard]] halflit_settings to_c(const Settings& from);
 [[nodiscard]] halflit_report to_c(const RenderReport& from);
 [[nodiscard]] halflit_environment_options default_environment_options();
 [[nodiscard]] halflit_view default_view();
 [[nodiscard]] halflit_picture_request default_picture_request();
-[[nodiscard]] halflit_instance to_c(const Instance& from);
+[[nodiscard]] halflit_instance to_c(const CallersInstance& from);
 [[nodiscard]] halflit_execution default_execution();
 [[nodiscard]] halflit_target default_target();
 [[nodiscard]] halflit_mesh default_mesh();

@@ -10,6 +10,9 @@
 
 namespace halflit::c {
 
+/// Threads of a frame, or of loading: more than any machine has.
+inline constexpr std::int32_t kMostThreads = 4096;
+
 /// Checks the members of one struct; the first that is out of range is its error.
 class Members {
 public:

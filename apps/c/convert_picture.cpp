@@ -20,10 +20,10 @@ HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, reserved);
 HALFLIT_ENDS_WITH(halflit_node, light);
 HALFLIT_ENDS_WITH(halflit_mesh, reserved);
-HALFLIT_ENDS_WITH(halflit_instance, world_from_object);
-HALFLIT_ENDS_WITH(halflit_light, shadow_radius);
+HALFLIT_ENDS_WITH(halflit_instance, place_rest);
+HALFLIT_ENDS_WITH(halflit_light, position_rest);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
-HALFLIT_ENDS_WITH(halflit_camera, reserved);
+HALFLIT_ENDS_WITH(halflit_camera, place_rest);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);
 HALFLIT_ENDS_WITH(halflit_picture_request, exposure_compensation_ev);
 HALFLIT_ENDS_WITH(halflit_view, any_side);
@@ -56,7 +56,8 @@ static_assert(HALFLIT_STUDIO_NEVER == static_cast<int>(StudioUse::never) &&
 
 }  // namespace
 
-halflit_camera to_c(const Camera& from) {
+halflit_camera to_c(const CallersCamera& given) {
+    const Camera& from = given.camera;
     halflit_camera camera{};
     camera.size = sizeof camera;
     camera.name = from.name.c_str();
@@ -72,12 +73,12 @@ halflit_camera to_c(const Camera& from) {
         const float sides[] = {from.sides->left, from.sides->right, from.sides->bottom, from.sides->top};
         std::copy_n(sides, 4, camera.sides);
     }
+    put(given.rest, camera.place_rest);
     return camera;
 }
 
-Result<Camera> camera(const halflit_camera* given) {
-    const Camera defaults;
-    const auto read = read_struct(given, to_c(defaults), "halflit_camera");
+Result<CallersCamera> camera(const halflit_camera* given) {
+    const auto read = read_struct(given, to_c(CallersCamera{}), "halflit_camera");
     if (!read) return tl::unexpected<Error>(read.error());
     Camera camera;
     camera.world_from_camera = mat4(read->world_from_camera);
@@ -90,7 +91,7 @@ Result<Camera> camera(const halflit_camera* given) {
     camera.far_z = read->far_z;
     const auto& [left, right, bottom, top] = read->sides;
     if (left != 0 || right != 0 || bottom != 0 || top != 0) camera.sides = ViewSides{left, right, bottom, top};
-    return camera;
+    return CallersCamera{camera, vec3(read->place_rest)};
 }
 
 halflit_settings to_c(const Settings& from) {
@@ -194,15 +195,15 @@ halflit_picture_request default_picture_request() {
     return options;
 }
 
-Result<PictureRequest> picture_request(const halflit_picture_request* given) {
+Result<PictureRequest> picture_request(const halflit_picture_request* given, const World& world) {
     PictureRequest options;
     if (given == nullptr) return options;
     const auto read = read_struct(given, default_picture_request(), "halflit_picture_request");
     if (!read) return tl::unexpected<Error>(read.error());
     if (read->camera != nullptr) {
-        auto view = camera(read->camera);
+        const auto view = camera(read->camera);
         if (!view) return tl::unexpected<Error>(view.error());
-        options.camera = std::move(*view);
+        options.camera = world.into(*view);
     }
     if (!(read->exposure >= 0.0f && read->exposure < 1e18f))
         return fail(ErrorCode::usage, "halflit_picture_request: exposure is not 0 or a positive number");
@@ -263,8 +264,9 @@ Result<Execution> execution(const halflit_execution* given) {
         if (!isa) return fail(ErrorCode::usage, "halflit_execution: isa: " + isa.error().message);
         execution.isa = *isa;
     }
-    if (read->threads < 0)
-        return fail(ErrorCode::usage, "halflit_execution: threads is " + std::to_string(read->threads) + ", expected 0 or more");
+    if (read->threads < 0 || read->threads > kMostThreads)
+        return fail(ErrorCode::usage,
+                    "halflit_execution: threads is " + std::to_string(read->threads) + ", expected 0 to " + std::to_string(kMostThreads));
     if (read->tile_size != 16 && read->tile_size != 32 && read->tile_size != 64)
         return fail(ErrorCode::usage, "halflit_execution: tile_size is " + std::to_string(read->tile_size) + ", expected 16, 32 or 64");
     execution.threads = read->threads;

@@ -91,6 +91,14 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     if (read->up < HALFLIT_UP_BY_FORMAT || read->up > HALFLIT_UP_MINUS_Z)
         return fail(ErrorCode::usage, "halflit_load_options: up is no HALFLIT_UP");
     if (read->up != HALFLIT_UP_BY_FORMAT) options.up = static_cast<UpAxis>(read->up - 1);
+    Members members("halflit_load_options");
+    if (!(read->time_limit_s >= 0.0)) members.wrong("time_limit_s", "is not 0 or more");
+    if (!(read->crease_deg >= 0.0f && read->crease_deg <= 180.0f)) members.wrong("crease_deg", "is not from 0 to 180");
+    if (read->plate < 0) members.wrong("plate", "is " + std::to_string(read->plate) + ", expected 0 or more");
+    if (read->threads < 0 || read->threads > kMostThreads)
+        members.wrong("threads", "is " + std::to_string(read->threads) + ", expected 0 to " + std::to_string(kMostThreads));
+    members.finite("time_s", read->time_s);
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
     options.limits.time_limit_s = read->time_limit_s;
     options.crease_deg = read->crease_deg;
     options.recentre = read->recentre != 0;
@@ -175,7 +183,8 @@ Result<Material> material(const halflit_material* given) {
     return material;
 }
 
-halflit_light to_c(const Light& from) {
+halflit_light to_c(const CallersLight& given) {
+    const Light& from = given.light;
     halflit_light light{};
     light.size = sizeof light;
     light.type = static_cast<std::int32_t>(from.type);
@@ -188,17 +197,18 @@ halflit_light to_c(const Light& from) {
     light.inner_cone_rad = from.inner_cone_rad;
     light.outer_cone_rad = from.outer_cone_rad;
     light.cone_power = from.cone_power;
+    put(given.rest, light.position_rest);
     return light;
 }
 
-Result<Light> light(const halflit_light* given) {
-    const auto read = read_struct(given, to_c(Light{}), "halflit_light");
+Result<CallersLight> light(const halflit_light* given) {
+    const auto read = read_struct(given, to_c(CallersLight{}), "halflit_light");
     if (!read) return tl::unexpected<Error>(read.error());
     Light light;
     Members members("halflit_light");
     members.read(read->type, LightType::spot, "type", light.type);
     members.finite("color", read->color);
-    members.finite("position", read->position);
+    members.finite("position", read->position, read->position_rest);
     members.finite("direction", read->direction);
     members.finite("a cone angle or cone_power", read->inner_cone_rad, read->outer_cone_rad, read->cone_power);
     members.finite("source_radius or shadow_radius", read->source_radius, read->shadow_radius);
@@ -212,7 +222,7 @@ Result<Light> light(const halflit_light* given) {
     light.inner_cone_rad = read->inner_cone_rad;
     light.outer_cone_rad = read->outer_cone_rad;
     light.cone_power = read->cone_power;
-    return light;
+    return CallersLight{light, vec3(read->position_rest)};
 }
 
 halflit_environment_options default_environment_options() {
@@ -235,7 +245,8 @@ Result<EnvironmentRequest> environment_request(const halflit_environment_options
     return request;
 }
 
-halflit_instance to_c(const Instance& from) {
+halflit_instance to_c(const CallersInstance& given) {
+    const Instance& from = given.instance;
     halflit_instance instance{};
     instance.size = sizeof instance;
     instance.mesh = from.mesh;
@@ -244,16 +255,19 @@ halflit_instance to_c(const Instance& from) {
     instance.node = -1;
     put(from.color, instance.color);
     put(from.world_from_object, instance.world_from_object);
+    put(given.rest, instance.place_rest);
     return instance;
 }
 
-Result<Instance> instance(const halflit_instance* given) {
-    const auto read = read_struct(given, to_c(Instance{}), "halflit_instance");
+Result<CallersInstance> instance(const halflit_instance* given) {
+    const auto read = read_struct(given, to_c(CallersInstance{}), "halflit_instance");
     if (!read) return tl::unexpected<Error>(read.error());
     Members members("halflit_instance");
     members.finite("color", read->color);
+    members.finite("place_rest", read->place_rest);
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
-    return Instance{read->mesh, mat4(read->world_from_object), read->material, vec4(read->color), read->visible != 0};
+    return CallersInstance{{read->mesh, mat4(read->world_from_object), read->material, vec4(read->color), read->visible != 0},
+                           vec3(read->place_rest)};
 }
 
 halflit_mesh default_mesh() {

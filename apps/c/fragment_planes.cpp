@@ -21,7 +21,7 @@ int32_t halflit_ray_distances(const halflit_camera* given_camera, int32_t width,
         const Region& part = settings.region;
         const auto w = static_cast<std::size_t>(part.width > 0 ? part.width : width);
         const auto h = static_cast<std::size_t>(part.width > 0 ? part.height : height);
-        return make_ray_distances(*from, {width, height}, part, {depth, w * h});
+        return make_ray_distances(from->camera, {width, height}, part, {depth, w * h});
     });
 }
 
@@ -29,7 +29,7 @@ int32_t halflit_view_normals(const halflit_camera* given_camera, float* normal, 
     return guarded(__func__, {{given_camera, "camera"}, {normal, "normal"}}, [&]() -> Result<void> {
         const auto from = camera(given_camera);
         if (!from) return tl::unexpected<Error>(from.error());
-        return make_view_normals(*from, {normal, 3 * count});
+        return make_view_normals(from->camera, {normal, 3 * count});
     });
 }
 
@@ -68,7 +68,7 @@ int32_t halflit_motion(const halflit_scene* scene, const halflit_camera* given_c
                            first.lock();
                        else
                            std::lock(first, second);
-                       return make_motion({scene->scene, scene->drawn(*from)}, {other->scene, other->drawn(*to)}, {width, height},
+                       return make_motion({scene->scene, scene->world.into(*from)}, {other->scene, other->world.into(*to)}, {width, height},
                                           {{instance, count}, {triangle, count}, {barycentric, 2 * count}}, {motion, 2 * count});
                    });
 }

@@ -1,6 +1,7 @@
 // Functions of halflit.h that add and change materials, textures, meshes and instances.
 #include "apps/c/convert.hpp"
 #include "apps/c/convert_parts.hpp"
+#include "apps/c/placing.hpp"
 #include "apps/c/scene_access.hpp"
 #include "apps/c/versioned.hpp"
 
@@ -46,22 +47,21 @@ Result<Material> make_material(const halflit_scene& to, const halflit_material* 
 /// Whether a mesh, whose struct was read before, asks for smooth normals.
 bool is_smooth(const halflit_mesh* given) { return read_struct(given, default_mesh(), "halflit_mesh")->smooth != 0; }
 
-/// A matrix that places, in the world that is drawn.
-Result<Mat4> placing(const halflit_scene& to, const float m[16]) {
-    for (int i = 0; i < 16; ++i)
-        if (!(m[i] - m[i] == 0.0f)) return fail(ErrorCode::usage, "world_from_object: a number is not finite");
-    const auto is = [](float x, float wanted) { return x > wanted - 1e-5f && x < wanted + 1e-5f; };
-    if (!is(m[3], 0) || !is(m[7], 0) || !is(m[11], 0) || !is(m[15], 1))
-        return fail(ErrorCode::usage, std::string("world_from_object: expected 0 0 0 1 as the last row") +
-                                          (is(m[12], 0) && is(m[13], 0) && is(m[14], 0) ? ": is it transposed?" : ""));
-    return turned_upright(mat4(m), to.up);
+/// Where a matrix, of floats or doubles, places an instance of a mesh, in the world that is drawn.
+template <class Number>
+Result<Mat4> placing(const halflit_scene& to, const Number m[16], int mesh, Vec3d rest = {0, 0, 0}) {
+    const auto read = read_placing(m, rest);
+    if (!read) return tl::unexpected<Error>(read.error());
+    return to.world.into(*read, mesh);
 }
 
-Result<std::vector<Mat4>> all_placing(const halflit_scene& to, const float* matrices, std::int32_t count) {
+/// mesh_of(i): the mesh that the i-th matrix places.
+template <class Number, class MeshOf>
+Result<std::vector<Mat4>> all_placing(const halflit_scene& to, const Number* matrices, std::int32_t count, const MeshOf& mesh_of) {
     std::vector<Mat4> places;
     places.reserve(static_cast<std::size_t>(count));
     for (std::int32_t i = 0; i < count; ++i) {
-        const auto place = placing(to, matrices + 16 * static_cast<std::size_t>(i));
+        const auto place = placing(to, matrices + 16 * static_cast<std::size_t>(i), mesh_of(i));
         if (!place) return fail(place.error().code, "matrix " + std::to_string(i) + ": " + place.error().message);
         places.push_back(*place);
     }
@@ -70,18 +70,19 @@ Result<std::vector<Mat4>> all_placing(const halflit_scene& to, const float* matr
 
 /// An instance whose indices are in the scene.
 Result<Instance> make_instance(const halflit_scene& to, const halflit_instance* given) {
-    auto made = instance(given);
-    if (!made) return made;
-    if (const auto at = check_index(made->mesh, to.scene.meshes.size(), to.free_meshes, "halflit_instance: mesh"); !at)
+    const auto read = instance(given);
+    if (!read) return tl::unexpected<Error>(read.error());
+    Instance made = read->instance;
+    if (const auto at = check_index(made.mesh, to.scene.meshes.size(), to.free_meshes, "halflit_instance: mesh"); !at)
         return tl::unexpected<Error>(at.error());
-    if (made->material != -1)
-        if (const auto at = check_index(made->material, to.scene.materials.size(), "halflit_instance: material"); !at)
+    if (made.material != -1)
+        if (const auto at = check_index(made.material, to.scene.materials.size(), "halflit_instance: material"); !at)
             return tl::unexpected<Error>(at.error());
     float matrix[16];
-    put(made->world_from_object, matrix);
-    const auto place = placing(to, matrix);
+    put(made.world_from_object, matrix);
+    const auto place = placing(to, matrix, made.mesh, read->rest);
     if (!place) return tl::unexpected<Error>(place.error());
-    made->world_from_object = *place;
+    made.world_from_object = *place;
     return made;
 }
 
@@ -241,6 +242,7 @@ int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halfli
         if (!at) return tl::unexpected<Error>(at.error());
         auto made = make_mesh(scene->scene, mesh);
         if (!made) return tl::unexpected<Error>(made.error());
+        scene->world.into(*made, *at);
         scene->changes.mesh(*at);
         scene->put_given_mesh(*at, std::move(*made), is_smooth(mesh));
         return {};
@@ -260,6 +262,7 @@ int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const fl
             return fail(ErrorCode::usage, "mesh " + std::to_string(index) + ": " + std::to_string(vertex_count) + " vertices, expected " +
                                               std::to_string(mesh.positions.size()));
         mesh.positions = copied<Vec3f>(positions, vertex_count);
+        scene->world.into(mesh, *at);
         const auto without = scene->added_without_normals.find(*at);
         if (normals != nullptr) {
             mesh.normals = copied<Vec3f>(normals, vertex_count);
@@ -308,7 +311,8 @@ int32_t halflit_scene_remove_texture(halflit_scene* scene, int32_t index) {
 // ---- instances ---------------------------------------------------------------------------------------------------------
 
 int32_t halflit_instance_init(halflit_instance* instance, size_t size) {
-    return guarded(__func__, {{instance, "instance"}}, [&] { return write_struct(to_c(Instance{}), size, instance, "halflit_instance"); });
+    return guarded(__func__, {{instance, "instance"}},
+                   [&] { return write_struct(to_c(CallersInstance{}), size, instance, "halflit_instance"); });
 }
 
 int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index) {
@@ -318,7 +322,7 @@ int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const flo
         const Mat4 identity;
         float matrix[16];
         put(identity, matrix);
-        const auto place = placing(*scene, world_from_object != nullptr ? world_from_object : matrix);
+        const auto place = placing(*scene, world_from_object != nullptr ? world_from_object : matrix, mesh);
         if (!place) return tl::unexpected<Error>(place.error());
         const std::size_t at = scene->free_instances.next(scene->scene.instances.size());
         scene->put_instance(at, {mesh, *place});
@@ -328,14 +332,18 @@ int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const flo
     });
 }
 
-int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object, int32_t* first) {
-    return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
+namespace {
+
+template <class Number>
+std::int32_t add_instances(const char* function, halflit_scene* scene, std::int32_t mesh, std::int32_t count, const Number* matrices,
+                           std::int32_t* first) {
+    return changing(function, scene, {{matrices, "world_from_object"}}, [&]() -> Result<void> {
         if (const auto at = check_index(mesh, scene->scene.meshes.size(), scene->free_meshes, "mesh"); !at)
             return tl::unexpected<Error>(at.error());
         std::vector<Instance>& instances = scene->scene.instances;
         if (count < 0 || static_cast<std::size_t>(count) > kMostInstances - std::min(instances.size(), kMostInstances))
             return fail(ErrorCode::usage, "count: " + std::to_string(count) + ", expected 0 or more, and at most 2^31 - 1 instances");
-        const auto places = all_placing(*scene, world_from_object, count);
+        const auto places = all_placing(*scene, matrices, count, [mesh](std::int32_t) { return mesh; });
         if (!places) return tl::unexpected<Error>(places.error());
         const std::size_t begin = instances.size();
         if (count > 0) scene->changes.structure();
@@ -344,6 +352,38 @@ int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t 
         tell(begin, first);
         return {};
     });
+}
+
+template <class Number>
+std::int32_t place_instances(const char* function, halflit_scene* scene, const std::int32_t* indices, std::int32_t count,
+                             const Number* matrices) {
+    return changing(function, scene, {{matrices, "world_from_object"}}, [&]() -> Result<void> {
+        if (count < 0) return fail(ErrorCode::usage, "count: " + std::to_string(count) + ", expected 0 or more");
+        std::vector<Instance>& instances = scene->scene.instances;
+        const auto index_of = [&](std::int32_t i) { return indices != nullptr ? indices[i] : i; };
+        const auto instance_of = [&](std::int32_t i) -> Instance& { return instances[static_cast<std::size_t>(index_of(i))]; };
+        for (std::int32_t i = 0; i < count; ++i)
+            if (const auto at = check_index(index_of(i), instances.size(), scene->free_instances, "instance"); !at)
+                return tl::unexpected<Error>(at.error());
+        const auto places = all_placing(*scene, matrices, count, [&](std::int32_t i) { return instance_of(i).mesh; });
+        if (!places) return tl::unexpected<Error>(places.error());
+        for (std::int32_t i = 0; i < count; ++i) {
+            scene->changes.instance(static_cast<std::size_t>(index_of(i)));
+            instance_of(i).world_from_object = (*places)[static_cast<std::size_t>(i)];
+        }
+        return {};
+    });
+}
+
+}  // namespace
+
+int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object, int32_t* first) {
+    return add_instances(__func__, scene, mesh, count, world_from_object, first);
+}
+
+int32_t halflit_scene_add_instances_double(halflit_scene* scene, int32_t mesh, int32_t count, const double* world_from_object,
+                                           int32_t* first) {
+    return add_instances(__func__, scene, mesh, count, world_from_object, first);
 }
 
 int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const halflit_instance* given) {
@@ -364,22 +404,11 @@ int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t index, const 
 }
 
 int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count, const float* world_from_object) {
-    return changing(__func__, scene, {{world_from_object, "world_from_object"}}, [&]() -> Result<void> {
-        if (count < 0) return fail(ErrorCode::usage, "count: " + std::to_string(count) + ", expected 0 or more");
-        std::vector<Instance>& instances = scene->scene.instances;
-        const auto index_of = [&](std::int32_t i) { return indices != nullptr ? indices[i] : i; };
-        for (std::int32_t i = 0; i < count; ++i)
-            if (const auto at = check_index(index_of(i), instances.size(), scene->free_instances, "instance"); !at)
-                return tl::unexpected<Error>(at.error());
-        const auto places = all_placing(*scene, world_from_object, count);
-        if (!places) return tl::unexpected<Error>(places.error());
-        for (std::int32_t i = 0; i < count; ++i) {
-            const auto at = static_cast<std::size_t>(index_of(i));
-            scene->changes.instance(at);
-            instances[at].world_from_object = (*places)[static_cast<std::size_t>(i)];
-        }
-        return {};
-    });
+    return place_instances(__func__, scene, indices, count, world_from_object);
+}
+
+int32_t halflit_scene_place_instances_double(halflit_scene* scene, const int32_t* indices, int32_t count, const double* world_from_object) {
+    return place_instances(__func__, scene, indices, count, world_from_object);
 }
 
 int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index) {

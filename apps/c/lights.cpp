@@ -31,7 +31,7 @@ Result<void> light_by(halflit_scene& scene, EnvironmentImage image, const Enviro
 }  // namespace
 
 int32_t halflit_light_init(halflit_light* light, size_t size) {
-    return guarded(__func__, {{light, "light"}}, [&] { return write_struct(to_c(Light{}), size, light, "halflit_light"); });
+    return guarded(__func__, {{light, "light"}}, [&] { return write_struct(to_c(CallersLight{}), size, light, "halflit_light"); });
 }
 
 int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given, int32_t* index) {
@@ -40,7 +40,7 @@ int32_t halflit_scene_add_light(halflit_scene* scene, const halflit_light* given
         if (!made) return tl::unexpected<Error>(made.error());
         const std::size_t at = scene->free_lights.next(scene->scene.lights.size());
         if (at == scene->scene.lights.size()) scene->scene.lights.emplace_back();
-        scene->scene.lights[at] = turned_upright(*made, scene->up);
+        scene->scene.lights[at] = scene->world.into(*made);
         scene->free_lights.fill(at);
         tell(at, index);
         return {};
@@ -53,7 +53,7 @@ int32_t halflit_scene_set_light(halflit_scene* scene, int32_t index, const halfl
         if (!made) return tl::unexpected<Error>(made.error());
         const auto at = check_index(index, scene->scene.lights.size(), scene->free_lights, "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        scene->scene.lights[*at] = turned_upright(*made, scene->up);
+        scene->scene.lights[*at] = scene->world.into(*made);
         return {};
     });
 }
@@ -84,7 +84,7 @@ int32_t halflit_scene_add_default_lights(halflit_scene* scene, const halflit_cam
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
         if (!is_dark(scene->scene)) return {};
-        add_default_lights(scene->scene, scene->drawn(*made));
+        add_default_lights(scene->scene, scene->world.into(*made));
         return {};
     });
 }
@@ -94,7 +94,7 @@ int32_t halflit_scene_add_studio(halflit_scene* scene, const halflit_camera* giv
         const auto made = camera(given);
         if (!made) return tl::unexpected<Error>(made.error());
         if (!is_dark(scene->scene)) return {};
-        add_studio(scene->scene, scene->drawn(*made));
+        add_studio(scene->scene, scene->world.into(*made));
         return {};
     });
 }
@@ -117,7 +117,11 @@ int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, in
     return changing(__func__, scene, {{rgb, "rgb"}}, [&]() -> Result<void> {
         const auto request = environment_request(options);
         if (!request) return tl::unexpected<Error>(request.error());
-        if (width < 1 || height < 1) return fail(ErrorCode::usage, "the environment has no pixels");
+        const EnvironmentLimits limits;
+        if (width < 1 || height < 1 || width > limits.max_width || height > limits.max_height)
+            return fail(ErrorCode::usage, "the environment has " + std::to_string(width) + " x " + std::to_string(height) +
+                                              " pixels, expected 1 x 1 to " + std::to_string(limits.max_width) + " x " +
+                                              std::to_string(limits.max_height));
         const std::size_t values = std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
         return light_by(*scene, {width, height, std::vector<float>(rgb, rgb + values), request->calibrated}, request->options);
     });

@@ -6,6 +6,7 @@ type checkers know, from the classes of the package. Run it after a change to on
     apps/c/members.py            writes the files
     apps/c/members.py --check    writes nothing; exit code 1 if one of them would change
 """
+import json
 import os
 import re
 import sys
@@ -26,7 +27,7 @@ PYTHON_DICTS = {
     "MaterialMembers": ("Material", PYTHON, ()),
 }
 # Types of attributes -> what a dict may have in their place.
-WIDER = {"Union[TextureUse, int]": "TextureOf", "Union[Lobe, str, Tuple[str, float]]": "LobeOf"}
+WIDER = {"Union[TextureUse, int]": "TextureOf", "Union[Lobe, LobeName, Tuple[LobeName, float]]": "LobeOf"}
 SETTINGS_TABLE = "raster/settings_table.def"
 SETTINGS_SOURCES = ("raster/include/halflit/settings.hpp", "shading/include/halflit/shading.hpp")
 USUAL_SETTINGS = "raster/auto_setup.cpp"
@@ -36,8 +37,8 @@ ENUMERATIONS = {"kAccuracyNames": "ACCURACY", "kRateNames": "RATE", "kTextureDet
                 "kShadowModeNames": "SHADOWS", "kToneCurveNames": "TONE", "kEdgeChoiceNames": "EDGES",
                 "kHiddenEdgeNames": "HIDDEN_EDGES"}
 # Setting -> members behind it that no row of the table has.
-BY_HAND = {"edge_width": ["    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)",
-                          "    float edge_color[3];"]}
+BY_HAND = {"edge_width": ["    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it. In 8-bit pictures, dark",
+                          "    /// lines are light grey on surfaces that are as dark (0, 0, 0)", "    float edge_color[3];"]}
 UNLIMITED = ("kMostScale", "kMostNumber")
 
 
@@ -190,7 +191,9 @@ def python_settings():
         if enumeration:
             doc += ": " + ", ".join(f'"{x}"' for x in names_of(enumeration.group(1)))
         docs += textwrap.wrap(f"{keyword}: {doc} ({usual})", 132, initial_indent=" " * 8, subsequent_indent=" " * 12)
-        kind = "str" if enumeration else "bool" if truth else "float" if kind in ("float", "double") else "int"
+        names = names_of(enumeration.group(1)) if enumeration else []
+        number = "bool" if truth else "float" if kind in ("float", "double") else "int"
+        kind = f"Literal[{', '.join(map(json.dumps, names))}]" if enumeration else number
         annotations.append(f"    {keyword}: {kind}")
         table.append(f'    "{keyword}": ("{name}", "{ENUMERATIONS[enumeration.group(1)] if enumeration else kind}"),')
     join = lambda lines: "\n".join(lines) + "\n"

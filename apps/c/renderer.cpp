@@ -76,25 +76,12 @@ const Lighting& light_of(const Scene& scene, const halflit_lighting* chosen, std
     return *moved;
 }
 
-/// Turns the planes of directions and positions into the caller's world.
-void turn_planes_back(const halflit_target& target, const Region& region, UpAxis up) {
-    if (up == UpAxis::y) return;
-    const Region part = region.width > 0 ? region : Region{0, 0, target.width, target.height};
-    const Region at = target.region_alone != 0 ? Region{0, 0, part.width, part.height} : part;
-    const auto turn = [&](float* plane, std::size_t row_bytes) {
-        const std::size_t row =
-            row_bytes != 0 ? row_bytes : 12 * static_cast<std::size_t>(target.region_alone != 0 ? at.width : target.width);
-        for (int y = at.y; plane != nullptr && y < at.y + at.height; ++y) {
-            auto* p = reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(plane) + static_cast<std::size_t>(y) * row) + 3 * at.x;
-            for (int x = 0; x < at.width; ++x, p += 3) {
-                const Vec3d told = turned_back(Vec3d{p[0], p[1], p[2]}, up);
-                put(Vec3f{static_cast<float>(told.x), static_cast<float>(told.y), static_cast<float>(told.z)}, p);
-            }
-        }
-    };
-    turn(target.normal, target.normal_row_bytes);
-    turn(target.shading_normal, target.shading_normal_row_bytes);
-    turn(target.position, target.position_row_bytes);
+/// Pixels of a plane without gaps; 0 for a size that is refused.
+std::size_t pixels_of(const halflit_target& target, const Region& region) {
+    const bool alone = target.region_alone != 0 && region.width > 0;
+    const std::int32_t width = alone ? region.width : target.width, height = alone ? region.height : target.height;
+    if (width < 1 || height < 1 || std::int64_t{width} * height > std::int64_t{1} << 28) return 0;
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
 /// Prepares the scene, if it has changed, and draws it.
@@ -153,25 +140,30 @@ void halflit_renderer_destroy(halflit_renderer* renderer) { delete renderer; }
 int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting,
                        const halflit_camera* given_camera, const halflit_settings* given_settings, const halflit_target* given_target,
                        halflit_report* to_report) {
-    return using_renderer(__func__, renderer, {{scene, "scene"}, {given_camera, "camera"}, {given_target, "target"}},
-                          [&]() -> Result<void> {
-                              if (to_report != nullptr)
-                                  if (auto ok = check_size(to_report->size, sizeof(halflit_report), "halflit_report"); !ok) return ok;
-                              const auto from = camera(given_camera);
-                              if (!from) return tl::unexpected<Error>(from.error());
-                              const auto how = settings(given_settings);
-                              if (!how) return tl::unexpected<Error>(how.error());
-                              const auto memory = target_struct(given_target);
-                              if (!memory) return tl::unexpected<Error>(memory.error());
-                              renderer->warnings.clear();
-                              auto report = draw(*renderer, *scene, lighting, scene->drawn(*from), *how, target(*memory));
-                              if (!report) return tl::unexpected<Error>(report.error());
-                              turn_planes_back(*memory, how->region, scene->up);
-                              if (to_report != nullptr)
-                                  (void)write_struct(to_c(*report), to_report, "halflit_report");  // its size was checked above
-                              renderer->warnings = std::move(report->warnings);
-                              return {};
-                          });
+    return using_renderer(
+        __func__, renderer, {{scene, "scene"}, {given_camera, "camera"}, {given_target, "target"}}, [&]() -> Result<void> {
+            if (to_report != nullptr)
+                if (auto ok = check_size(to_report->size, sizeof(halflit_report), "halflit_report"); !ok) return ok;
+            const auto from = camera(given_camera);
+            if (!from) return tl::unexpected<Error>(from.error());
+            const auto how = settings(given_settings);
+            if (!how) return tl::unexpected<Error>(how.error());
+            const auto memory = target_struct(given_target);
+            if (!memory) return tl::unexpected<Error>(memory.error());
+            renderer->warnings.clear();
+            std::vector<std::uint32_t> surfaces;
+            halflit_target planes = *memory;
+            if (scene->world.moves() && planes.position != nullptr && planes.depth == nullptr && planes.instance == nullptr) {
+                surfaces.resize(pixels_of(planes, how->region));
+                planes.instance = surfaces.data(), planes.instance_row_bytes = 0;
+            }
+            auto report = draw(*renderer, *scene, lighting, scene->world.into(*from), scene->world.into(*how), target(planes));
+            if (!report) return tl::unexpected<Error>(report.error());
+            scene->world.out(planes, how->region);
+            if (to_report != nullptr) (void)write_struct(to_c(*report), to_report, "halflit_report");  // its size was checked above
+            renderer->warnings = std::move(report->warnings);
+            return {};
+        });
 }
 
 int32_t halflit_measured_init(halflit_measured* measured, size_t size) {
@@ -205,8 +197,8 @@ int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, 
         const DrawingScene drawing(*scene);
         if (auto ok = scene->prepare(execution); !ok) return ok;
         std::optional<Lighting> moved;
-        const auto found = Renderer::measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->drawn(*from), *how,
-                                             known.asked, width, height, is_known ? &known : nullptr, execution);
+        const auto found = Renderer::measure(*scene->prepared, light_of(scene->scene, lighting, moved), scene->world.into(*from),
+                                             scene->world.into(*how), known.asked, width, height, is_known ? &known : nullptr, execution);
         if (!found) return tl::unexpected<Error>(found.error());
         halflit_measured out = *given;
         out.percent = found->percent, out.probes = found->probes, out.outside = found->outside;

@@ -21,15 +21,13 @@ Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
     made->warnings = std::move(loaded->warnings);
     made->animations = std::move(loaded->animations);
     made->motion = std::move(loaded->motion);
-    made->placement = std::move(loaded->placement);
+    made->world = World(std::move(loaded->placement));
     made->nodes = std::move(loaded->nodes);
     made->node_of_instance = std::move(loaded->node_of_instance);
     made->free_meshes.keep(made->file_meshes);
     made->free_instances.keep(made->scene.instances.size());
     made->free_lights.keep(made->scene.lights.size());
-    for (Node& node : made->nodes) node.instances.clear();
-    for (std::size_t i = 0; i < made->node_of_instance.size(); ++i)  // skinned ones too
-        made->nodes[static_cast<std::size_t>(made->node_of_instance[i])].instances.push_back(static_cast<int>(i));
+    made->list_instances_of_nodes();
     *scene = made.release();
     return {};
 }
@@ -89,7 +87,8 @@ int32_t halflit_scene_set_up(halflit_scene* scene, int32_t up) {
         const Scene& now = scene->scene;
         if (!now.instances.empty() || !now.lights.empty() || !now.cameras.empty())
             return fail(ErrorCode::usage, "up: expected a scene without instances, lights and cameras");
-        scene->up = up == HALFLIT_UP_BY_FORMAT ? UpAxis::y : static_cast<UpAxis>(up - 1);
+        scene->up_is_set = true;
+        scene->world.set_up(up == HALFLIT_UP_BY_FORMAT ? UpAxis::y : static_cast<UpAxis>(up - 1));
         return {};
     });
 }
@@ -153,7 +152,7 @@ int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double t
 
 int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale, int32_t* up) {
     return reading(__func__, scene, {}, [&]() -> Result<void> {
-        const Placement& from = scene->placement;
+        const Placement& from = scene->world.placement();
         if (origin != nullptr) origin[0] = from.origin.x, origin[1] = from.origin.y, origin[2] = from.origin.z;
         if (scale != nullptr) *scale = from.scale;
         if (up != nullptr) *up = static_cast<std::int32_t>(from.up) + 1;
@@ -161,20 +160,24 @@ int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3]
     });
 }
 
-int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) {
+int32_t halflit_scene_get_box(const halflit_scene* scene, double min[3], double max[3]) {
     return reading(__func__, scene, {{min, "min"}, {max, "max"}}, [&]() -> Result<void> {
-        const Bounds drawn = scene_bounds(scene->scene);
-        Bounds bounds;
-        if (!drawn.empty)
-            for (const Vec3f corner : {drawn.min, drawn.max}) {
-                const Vec3d told = turned_back(Vec3d{corner.x, corner.y, corner.z}, scene->up);
-                bounds.add({static_cast<float>(told.x), static_cast<float>(told.y), static_cast<float>(told.z)});
-            }
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
-        put(bounds.empty ? Vec3f{kInfinity, kInfinity, kInfinity} : bounds.min, min);
-        put(bounds.empty ? Vec3f{-kInfinity, -kInfinity, -kInfinity} : bounds.max, max);
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        const Vec3d all{kInfinity, kInfinity, kInfinity};
+        const World::Box box = scene->world.out(scene_bounds(scene->scene)).value_or(World::Box{all, all * -1.0});
+        put(box.min, min);
+        put(box.max, max);
         return {};
     });
+}
+
+int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) {
+    if (const auto ok = check_pointers(__func__, {{min, "min"}, {max, "max"}}); !ok)
+        return record_failure(ok.error().code, "", ok.error().message.c_str());
+    double low[3], high[3];
+    if (const std::int32_t code = halflit_scene_get_box(scene, low, high); code != 0) return code;
+    for (int i = 0; i < 3; ++i) min[i] = static_cast<float>(low[i]), max[i] = static_cast<float>(high[i]);
+    return 0;
 }
 
 int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material) {
@@ -189,8 +192,7 @@ int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, ha
     return reading(__func__, scene, {{instance, "instance"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.instances.size(), scene->free_instances, "instance");
         if (!at) return tl::unexpected<Error>(at.error());
-        halflit_instance found = to_c(scene->scene.instances[*at]);
-        put(turned_back(scene->scene.instances[*at].world_from_object, scene->up), found.world_from_object);
+        halflit_instance found = to_c(scene->world.out(scene->scene.instances[*at]));
         if (*at < scene->node_of_instance.size()) found.node = scene->node_of_instance[*at];
         return write_struct(found, instance, "halflit_instance");
     });
@@ -230,7 +232,8 @@ Result<std::string*> name_of(halflit_scene& scene, std::int32_t part, std::int32
             const auto at = check_index(index, scene.scene.instances.size(), scene.free_instances, "instance");
             if (!at) return tl::unexpected<Error>(at.error());
             if (const auto own = scene.instance_names.find(*at); own != scene.instance_names.end()) return &own->second;
-            if (*at < scene.node_of_instance.size()) return &scene.nodes[static_cast<std::size_t>(scene.node_of_instance[*at])].name;
+            if (*at < scene.node_of_instance.size() && scene.node_of_instance[*at] >= 0)
+                return &scene.nodes[static_cast<std::size_t>(scene.node_of_instance[*at])].name;
             return nullptr;
         }
         default:
@@ -267,7 +270,7 @@ int32_t halflit_scene_get_light(const halflit_scene* scene, int32_t index, halfl
     return reading(__func__, scene, {{light, "light"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.lights.size(), scene->free_lights, "light");
         if (!at) return tl::unexpected<Error>(at.error());
-        return write_struct(to_c(turned_back(scene->scene.lights[*at], scene->up)), light, "halflit_light");
+        return write_struct(to_c(scene->world.out(scene->scene.lights[*at])), light, "halflit_light");
     });
 }
 
@@ -275,6 +278,9 @@ int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, half
     return reading(__func__, scene, {{camera, "camera"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.cameras.size(), "camera");
         if (!at) return tl::unexpected<Error>(at.error());
-        return write_struct(to_c(scene->scene.cameras[*at]), camera, "halflit_camera");
+        const CallersCamera told = scene->world.out(scene->scene.cameras[*at]);
+        halflit_camera found = to_c(told);
+        found.name = scene->scene.cameras[*at].name.c_str();  // valid as long as the scene
+        return write_struct(found, camera, "halflit_camera");
     });
 }

@@ -71,6 +71,12 @@ void halflit_scene::put_given_mesh(std::size_t index, Mesh given, bool smooth) {
     put_mesh(index, std::move(given));
 }
 
+void halflit_scene::list_instances_of_nodes() {
+    for (Node& node : nodes) node.instances.clear();
+    for (std::size_t i = 0; i < node_of_instance.size(); ++i)
+        if (node_of_instance[i] >= 0) nodes[static_cast<std::size_t>(node_of_instance[i])].instances.push_back(static_cast<int>(i));
+}
+
 void halflit_scene::put_instance(std::size_t index, const Instance& given) {
     if (index == scene.instances.size()) {
         changes.structure();

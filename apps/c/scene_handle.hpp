@@ -1,13 +1,13 @@
 // The scene of halflit.h: a C++ scene, its prepared form, and what changed between the two.
 #pragma once
 
+#include "apps/c/world.hpp"
 #include "halflit/halflit.h"
 
 #include <halflit/error.hpp>
 #include <halflit/model.hpp>
 #include <halflit/prepared_scene.hpp>
 #include <halflit/scene.hpp>
-#include <halflit/up_axis.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -53,6 +53,7 @@ class FreePlaces {
 public:
     [[nodiscard]] bool has(std::size_t index) const { return free_.contains(index); }
     [[nodiscard]] const std::set<std::size_t>& all() const { return free_; }
+    [[nodiscard]] std::size_t kept() const { return kept_; }
     void add(std::size_t index) { free_.insert(index); }
     /// The places below `count` are a file's: animations move what lies there, so that they are not used again.
     void keep(std::size_t count) { kept_ = count; }
@@ -79,10 +80,10 @@ struct halflit_scene {
     std::vector<std::string> warnings;
     std::vector<halflit::AnimationInfo> animations;
     std::shared_ptr<const halflit::Motion> motion;      ///< null: not kept
-    halflit::UpAxis up = halflit::UpAxis::y;            ///< of the caller's world
-    halflit::Placement placement;                       ///< where the file's model lies
+    halflit::c::World world;                            ///< what is given and told goes through it
+    bool up_is_set = false;                             ///< by the caller
     std::vector<halflit::Node> nodes;                   ///< of the file; their instances with the skinned ones
-    std::vector<int> node_of_instance;                  ///< of the file's instances
+    std::vector<int> node_of_instance;                  ///< of the first instances, which a file may have brought; -1: none
     std::map<std::size_t, std::string> instance_names;  ///< of those that the caller named
     halflit::c::FreePlaces free_meshes, free_instances, free_lights, free_textures;
     std::size_t file_meshes = 0;                        ///< the first meshes, which a file or the library brought
@@ -105,17 +106,8 @@ struct halflit_scene {
     /// Adds what a material, which has changed, requires of its meshes.
     void complete_meshes_of(std::size_t material);
 
-    /// A camera of the caller's world in the one that is drawn.
-    [[nodiscard]] halflit::Camera drawn(halflit::Camera camera) const {
-        camera.world_from_camera = turned_upright(camera.world_from_camera, up);
-        return camera;
-    }
-    /// A camera of the world that is drawn in the caller's.
-    [[nodiscard]] halflit::Camera told(halflit::Camera camera) const {
-        camera.world_from_camera = turned_back(camera.world_from_camera, up);
-        return camera;
-    }
-
+    /// Writes Node::instances by node_of_instance: skinned ones too.
+    void list_instances_of_nodes();
     /// Sets the world of an instance, its mesh, and so on. The index may be the next one. Requires: indices in range.
     void put_instance(std::size_t index, const halflit::Instance& given);
 

@@ -50,7 +50,8 @@ const kHelp = { "--timeout": "Stop loading after so many seconds, and each drawi
 const help_of = (flag) => (kHelp[flag.names.at(-1)] ?? flag.help).replaceAll("*/", "* /");
 const options = table.flags.map((flag) => `  /** ${help_of(flag)} */\n  ${camel(flag.names.at(-1))}?: ${type_of(flag)};`);
 const types = text(output, "index.d.ts");
-writeFileSync(join(output, "index.d.ts"), `${types}
+// Scripts of CommonJS have the types under a name of theirs: TypeScript refuses those of an ES module (TS1479).
+for (const name of ["index.d.ts", "index.d.cts"]) writeFileSync(join(output, name), `${types}
 /** The program's flags, by their names in camelCase; values as on the command line. */
 export interface FlagOptions {
 ${options.join("\n")}

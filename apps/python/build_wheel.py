@@ -191,6 +191,9 @@ def make(library, folder, licences_folder=None):
                 path = os.path.join(folder_of, name)
                 with open(path, "rb") as file:
                     files[os.path.relpath(path, HERE)] = file.read()
+    fonts = os.path.join(ROOT, "apps", "halflit", "fonts")
+    with open(os.path.join(fonts, "dejavu_sans.ttf"), "rb") as file:
+        files["halflit/dejavu_sans.ttf"] = file.read()
     with tempfile.TemporaryDirectory() as scratch:
         if library.endswith(".dll"):
             paths, libraries, tag = bundle_for_windows(library, scratch), {}, "py3-none-win_amd64"
@@ -207,8 +210,9 @@ def make(library, folder, licences_folder=None):
             notices[name] = file.read()
     for name, text in notices.items():
         files[f"{info}licenses/bundled/{name}"] = text
-    with open(os.path.join(ROOT, "LICENSE"), "rb") as file:
-        files[info + "licenses/LICENSE"] = file.read()
+    for name, path in (("LICENSE", ROOT), ("bundled/dejavu_sans.txt", fonts)):
+        with open(os.path.join(path, "LICENSE"), "rb") as file:
+            files[info + "licenses/" + name] = file.read()
     files[info + "METADATA"] = metadata().encode()
     start, _, platforms = tag.rpartition("-")
     tags = "".join(f"Tag: {start}-{one}\n" for one in platforms.split("."))

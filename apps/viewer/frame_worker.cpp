@@ -1,5 +1,6 @@
 #include "apps/viewer/frame_worker.hpp"
 
+#include "apps/halflit/report/pixel_story_json.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/halflit/report/scene_description.hpp"
 
@@ -158,7 +159,7 @@ Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
         auto story = explain_pixel(probe_, *job_.prepared, job_.light, job_.camera, job_.settings, {job_.width, job_.height},
                                    request.pixel->x, request.pixel->y, job_.timed_execution());
         if (!story) return tl::unexpected(story.error());
-        frame.story = std::move(*story);
+        frame.story = cli::in_file(std::move(*story), job_.source.placement);
         return {};
     }
     const int all_samples = job_.settings.samples;

@@ -83,10 +83,10 @@ Camera OrbitCamera::camera() const {
     return camera;
 }
 
-std::string OrbitCamera::flags(double aspect, Vec3d origin, double scale) const {
+std::string OrbitCamera::flags(double aspect, const Placement& placement) const {
     if (!moved_ || start_.orthographic) return "";
     const auto point = [&](Vec3d p) {
-        const Vec3d at = p * (1.0 / scale) + origin;
+        const Vec3d at = placement.out(p);
         return fmt::format("{},{},{}", at.x, at.y, at.z);
     };
     // A camera made for a wider picture shows its width, and more above and below.

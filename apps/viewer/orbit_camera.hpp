@@ -2,6 +2,7 @@
 #pragma once
 
 #include "halflit/camera.hpp"
+#include "halflit/model.hpp"
 #include "sh/vec3d.hpp"
 
 #include <string>
@@ -27,9 +28,9 @@ public:
     void reset();
 
     [[nodiscard]] Camera camera() const;
-    /// The flags of `halflit render` that place the camera there in a picture of width / height `aspect`, in the file's world, of which a
-    /// point p is drawn at (p - origin) * scale. Empty until it is moved, and for orthographic views, which no flag makes.
-    [[nodiscard]] std::string flags(double aspect, Vec3d origin, double scale) const;
+    /// The flags of `halflit render` that place the camera there in a picture of width / height `aspect`, in the file's
+    /// coordinates. Empty until it is moved, and for orthographic views, which no flag makes.
+    [[nodiscard]] std::string flags(double aspect, const Placement& placement) const;
     [[nodiscard]] double distance() const { return distance_; }
 
 private:

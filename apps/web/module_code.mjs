@@ -2,7 +2,7 @@
 
 // Emscripten's code around a module, as an expression: the function halflit_module. It asks the names below where it runs. The engine hands
 // it the module, so to it every host is the same, which has none of them.
-const kHosts = ["window", "importScripts", "process", "require", "document", "__filename"];
+const kHosts = ["window", "importScripts", "process", "require", "document", "__filename", "exports", "module", "define"];
 
 export const module_code = (glue) => `((${kHosts.join(", ")}) => {
 ${glue}

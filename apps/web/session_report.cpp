@@ -47,9 +47,10 @@ std::string view_of(const cli::RenderJob& job) {
         camera.orthographic ? kFlatFovDeg * (kPi / 180.0) : 2.0 * std::atan(tangent(static_cast<double>(camera.fov_y_rad)) * wider);
     const Vec3d position = camera.orthographic ? target + back * (half_height * wider / tangent(fov_rad)) : eye;
     const double radius = job.film.bounds.empty ? 0.0 : static_cast<double>(job.film.bounds.radius());
-    const auto in_file = [&](Vec3d p) { return p * (1.0 / job.source.placement.scale) + job.source.placement.origin; };
-    return fmt::format(R"({{"position":{},"target":{},"fov":{},"radius":{}}})", point(in_file(position)), point(in_file(target)),
-                       number(fov_rad * (180.0 / kPi)), number((radius > 0.0 ? radius : 1.0) / job.source.placement.scale));
+    const auto in_file = [&](Vec3d p) { return job.source.placement.out(p); };
+    return fmt::format(R"({{"position":{},"target":{},"fov":{},"radius":{},"up":"{}"}})", point(in_file(position)), point(in_file(target)),
+                       number(fov_rad * (180.0 / kPi)), number((radius > 0.0 ? radius : 1.0) / job.source.placement.scale),
+                       kUpAxisNames[static_cast<std::size_t>(job.source.placement.up)]);
 }
 
 /// Lobes that materials bring along, each once.

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Makes packages that run on old and new systems (`./dev package --portable`, `--windows`): a program without shared libraries, and a wheel.
 # For Windows the C interface too, as halflit.dll.
-#   package.sh ARCH ROOT FOLDER     ARCH: amd64, arm64 or windows; ROOT: the project; FOLDER: where the packages go
+#   package.sh ARCH ROOT FOLDER [wheel]     ARCH: amd64, arm64 or windows; ROOT: the project; FOLDER: where the packages go; wheel: it alone
 # Intermediate files are kept in ROOT/build/portable.
 set -euo pipefail
 
-arch=$1 root=$(realpath "$2")
+arch=$1 root=$(realpath "$2") only=${4:-}
 mkdir -p "$3"
 output=$(realpath "$3")
 here=$root/cmake/portable
@@ -53,7 +53,9 @@ run libraries "$here/libraries.sh" "$sources" "$made/prefix" "${toolchain[@]}"
 run configuration cmake -S "$root" -B "$made/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${toolchain[@]}" \
     -DHALFLIT_PREFIX="$made/prefix" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
     -DHALFLIT_ONETBB=OFF -DHALFLIT_VIEWER=OFF -DHALFLIT_BUILD_TESTS=OFF -DHALFLIT_INSTALL=OFF
-run program cmake --build "$made/build" --target halflit halflit_python
+targets=(halflit_python)
+if [ "$only" != wheel ]; then targets+=(halflit); fi
+run program cmake --build "$made/build" --target "${targets[@]}"
 
 # notice FILE: a copyright notice of Debian's, with the licences that it cites.
 notice() {
@@ -81,6 +83,7 @@ else
         >>"$made/$package/licences/README"
 fi
 "$root/apps/python/build_wheel.py" "$library" "$output" "$made/$package/licences"
+if [ "$only" = wheel ]; then exit 0; fi
 
 cp "$root/LICENSE" "$root/docs/SKILL.md" "$made/$package/"
 cp "$root/apps/halflit/fonts/LICENSE" "$made/$package/licences/dejavu-fonts.txt"

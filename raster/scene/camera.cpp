@@ -52,6 +52,27 @@ Result<Camera> Camera::from_intrinsics(const Intrinsics& lens, const std::array<
     return camera;
 }
 
+Camera completed(Camera camera, const Bounds& scene) {
+    const FpEnvironment environment_of_host;
+    if (camera.orthographic || camera.near_z != 0.0f) return camera;
+    constexpr float kNearestShare = 1e-4f;  // of the distance to the scene's centre or of its radius
+    camera.near_z = 0.1f;
+    if (scene.empty) return camera;
+    const Vec4f &back = camera.world_from_camera.c[2], &place = camera.world_from_camera.c[3];
+    const Vec3f eye{place.x, place.y, place.z};
+    float nearest = 3e38f;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3f p{corner & 1 ? scene.max.x : scene.min.x, corner & 2 ? scene.max.y : scene.min.y,
+                      corner & 4 ? scene.max.z : scene.min.z};
+        const float depth = dot(eye - p, Vec3f{back.x, back.y, back.z});
+        if (depth < nearest) nearest = depth;
+    }
+    const float away = length(scene.center() - eye), radius = scene.radius(), size = away > radius ? away : radius;
+    const float half_way = nearest / 2, least = kNearestShare * size, near_z = half_way > least ? half_way : least;
+    if (near_z > 0.0f && near_z < 3e38f) camera.near_z = near_z;
+    return camera;
+}
+
 Result<void> check_camera(const Camera& camera) {
     const FpEnvironment environment_of_host;
     const Mat4& m = camera.world_from_camera;

@@ -752,7 +752,9 @@ static void test_environments(void) {
     cube.settings.background_environment = 0;
     CHECK_OK(halflit_scene_set_environment(cube.scene, grey, 16, 8, &options));
     CHECK(draw_cube(NULL, &cube) == by_grey);
-    CHECK_FAILS(halflit_scene_set_environment(cube.scene, grey, 0, 8, NULL), HALFLIT_ERROR_USAGE, "no pixels");
+    CHECK_FAILS(halflit_scene_set_environment(cube.scene, grey, 0, 8, NULL), HALFLIT_ERROR_USAGE, "0 x 8 pixels, expected 1 x 1 to");
+    CHECK_FAILS(halflit_scene_set_environment(cube.scene, grey, 2147483647, 8, NULL), HALFLIT_ERROR_USAGE, "2147483647 x 8 pixels");
+    CHECK_FAILS(halflit_scene_set_environment(cube.scene, grey, 16384, 2147483647, NULL), HALFLIT_ERROR_USAGE, "x 2147483647 pixels");
     grey[5] = -1;
     CHECK(halflit_scene_set_environment(cube.scene, grey, 16, 8, NULL) == HALFLIT_ERROR_BAD_INPUT);
     CHECK_FAILS(halflit_scene_load_environment(cube.scene, "no/such.hdr", NULL), HAS_FILES ? HALFLIT_ERROR_IO : HALFLIT_ERROR_USAGE,
@@ -889,8 +891,26 @@ static void test_loading(void) {
     CHECK(options.threads == 0 && options.up == HALFLIT_UP_BY_FORMAT && options.recentre == 1 && options.crease_deg == 30);
     options.threads = -1;
     CHECK_FAILS(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory), HALFLIT_ERROR_USAGE,
-                "model: threads is -1, expected at least 0");
+                "threads is -1, expected 0 to 4096");
     options.threads = 1;
+    {
+        const struct {
+            double time_limit_s;
+            float crease_deg;
+            int32_t plate, threads;
+            const char* says;
+        } wrong[] = {{NAN, 30, 1, 1, "time_limit_s is not 0 or more"},  {-1, 30, 1, 1, "time_limit_s is not 0 or more"},
+                     {0, NAN, 1, 1, "crease_deg is not from 0 to 180"}, {0, 181, 1, 1, "crease_deg is not from 0 to 180"},
+                     {0, 30, -2, 1, "plate is -2, expected 0 or more"}, {0, 30, 1, 1000000000, "expected 0 to 4096"}};
+        size_t i;
+        for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+            halflit_load_options bad = options;
+            bad.time_limit_s = wrong[i].time_limit_s, bad.crease_deg = wrong[i].crease_deg;
+            bad.plate = wrong[i].plate, bad.threads = wrong[i].threads;
+            CHECK_FAILS(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &bad, &from_memory), HALFLIT_ERROR_USAGE,
+                        wrong[i].says);
+        }
+    }
     CHECK_OK(halflit_scene_load_memory(model, sizeof model - 1, "model", NULL, &options, &from_memory));
     halflit_lighting_destroy(init_setup(from_file, &camera, &settings));
     hash = draw_chosen(from_file, &camera, &settings);
@@ -1577,6 +1597,11 @@ typedef struct {
     int calls;
 } Written;
 
+typedef struct {
+    void* bytes;
+    size_t count;
+} Kept;
+
 static void take_bytes(void* user, const void* bytes, size_t count) {
     Written* const written = user;
     memcpy(written->first, bytes, sizeof written->first);
@@ -1632,6 +1657,9 @@ static void test_recentre(void) {
     double origin[3], scale;
     int32_t up;
     float min[3], max[3];
+    double low[3], high[3], place_at[16];
+    halflit_instance instance, again;
+    again.size = sizeof again;
     sprintf(far_model, "%.*s{\"mesh\":0,\"translation\":[1048576,0,0]}%s", (int)(node - model), model, node + strlen("{\"mesh\":0}"));
     CHECK_OK(halflit_load_options_init(&options, sizeof options));
     options.recentre = 0;
@@ -1645,10 +1673,150 @@ static void test_recentre(void) {
     CHECK_OK(halflit_scene_get_placement(scene, origin, &scale, &up));
     CHECK_OK(halflit_scene_get_placement(scene, NULL, NULL, NULL));
     CHECK(up == HALFLIT_UP_Y);
+    CHECK(origin[0] > 1048575 && origin[0] < 1048578 && scale == 1);
+    // Coordinates are the file's all the same: to a 2^-20th, which float32 does not have there. It has 2^-22 near 2, where the scene is
+    // drawn.
     CHECK_OK(halflit_scene_get_bounds(scene, min, max));
-    CHECK(origin[0] > 1048575 && origin[0] < 1048578 && scale == 1 && fabs((double)min[0] + origin[0] - 1048576) < 1e-3);
+    CHECK(min[0] == 1048576);
+    CHECK_OK(halflit_scene_get_box(scene, low, high));
+    CHECK(low[0] == 1048576);
+    memset(place_at, 0, sizeof place_at);
+    place_at[0] = place_at[5] = place_at[10] = place_at[15] = 1, place_at[12] = 1048576 - 1.0 / 1048576;
+    CHECK_OK(halflit_scene_place_instances_double(scene, NULL, 1, place_at));
+    CHECK_OK(halflit_scene_get_box(scene, low, high));
+    CHECK(fabs(low[0] - place_at[12]) < 2.5e-7);  // the model's other instance stays
+    instance.size = sizeof instance;
+    CHECK_OK(halflit_scene_get_instance(scene, 0, &instance));
+    CHECK(fabs((double)instance.world_from_object[12] + instance.place_rest[0] - place_at[12]) < 1e-7);
+    CHECK_OK(halflit_scene_set_instance(scene, 0, &instance));
+    CHECK_OK(halflit_scene_get_instance(scene, 0, &again));
+    CHECK(memcmp(&instance, &again, sizeof again) == 0);
     CHECK_FAILS(halflit_scene_get_placement(NULL, origin, &scale, &up), HALFLIT_ERROR_USAGE, "scene is null");
     halflit_scene_destroy(scene);
+}
+
+static void test_files_with_z_up(void) {
+    // A tetrahedron of sides 1, 2 and 3 as STL, whose z points up by custom.
+    static const char solid[] =
+        "solid t\n"
+        "facet normal 0 0 0 outer loop vertex 0 0 0 vertex 0 2 0 vertex 1 0 0 endloop endfacet\n"
+        "facet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 0 3 endloop endfacet\n"
+        "facet normal 0 0 0 outer loop vertex 0 0 0 vertex 0 0 3 vertex 0 2 0 endloop endfacet\n"
+        "facet normal 0 0 0 outer loop vertex 1 0 0 vertex 0 2 0 vertex 0 0 3 endloop endfacet\n"
+        "endsolid t\n";
+    static float positions[PIXELS * 3], normals[PIXELS * 3];
+    static uint32_t instances[PIXELS];
+    const float eye[3] = {4, 5, 6}, target_at[3] = {0.3f, 0.5f, 1}, above[3] = {0, 0, 1};
+    halflit_scene *scene, *other;
+    halflit_camera camera, found;
+    halflit_renderer* renderer;
+    halflit_settings settings;
+    halflit_target target = make_target(NULL);
+    halflit_view view;
+    float min[3], max[3];
+    int32_t up, i, first, count, seen = 0, wrong = 0;
+    if (!HAS_FILES) return;
+    CHECK_OK(halflit_scene_load_memory(solid, strlen(solid), "t.stl", NULL, NULL, &scene));
+    CHECK_OK(halflit_scene_get_placement(scene, NULL, NULL, &up));
+    CHECK_OK(halflit_scene_get_bounds(scene, min, max));
+    CHECK(up == HALFLIT_UP_Z && min[0] == 0 && min[1] == 0 && min[2] == 0 && max[0] == 1 && max[1] == 2 && max[2] == 3);
+    CHECK_OK(halflit_camera_init(&camera, sizeof camera));
+    CHECK_OK(halflit_camera_look_at(eye, target_at, above, &camera));
+    CHECK_OK(halflit_settings_init(&settings, sizeof settings));
+    CHECK_OK(halflit_renderer_create(NULL, &renderer));
+    target.position = positions, target.normal = normals, target.instance = instances;
+    CHECK_OK(halflit_render(renderer, scene, NULL, &camera, &settings, &target, NULL));
+    for (i = 0; i < PIXELS; ++i) {
+        const float *p = positions + 3 * i, *n = normals + 3 * i;
+        if (instances[i] == 0) continue;
+        ++seen;
+        // From there the face x + y / 2 + z / 3 = 1 alone is seen.
+        wrong += fabs(p[0] + p[1] / 2.0 + p[2] / 3.0 - 1) > 1e-5 || fabs(n[0] - 6 / 7.0) > 1e-5 || fabs(n[1] - 3 / 7.0) > 1e-5;
+    }
+    CHECK(seen > 50 && wrong == 0);
+    // From the top it looks along -z.
+    CHECK_OK(halflit_view_init(&view, sizeof view));
+    CHECK_OK(halflit_view_by_name(scene, "top", &view));
+    CHECK_OK(halflit_camera_init(&found, sizeof found));
+    CHECK_OK(halflit_camera_view(scene, 1, &view, &found));
+    CHECK(fabs(found.world_from_camera[10] - 1) < 1e-6 && found.world_from_camera[14] > 3);
+    // Added to a scene with y up, it keeps its coordinates; an empty scene takes its up.
+    CHECK_OK(halflit_scene_create(&other));
+    CHECK_OK(halflit_scene_set_up(other, HALFLIT_UP_Y));
+    CHECK_OK(halflit_scene_add_file_memory(other, solid, strlen(solid), "t.stl", NULL, NULL, NULL, &first, &count));
+    CHECK_OK(halflit_scene_get_bounds(other, min, max));
+    CHECK_OK(halflit_scene_get_placement(other, NULL, NULL, &up));
+    CHECK(first == 0 && count == 1 && up == HALFLIT_UP_Y && max[0] == 1 && max[1] == 2 && max[2] == 3);
+    halflit_scene_destroy(other);
+    CHECK_OK(halflit_scene_create(&other));
+    CHECK_OK(halflit_scene_add_file_memory(other, solid, strlen(solid), "t.stl", NULL, NULL, NULL, NULL, NULL));
+    CHECK_OK(halflit_scene_get_placement(other, NULL, NULL, &up));
+    CHECK(up == HALFLIT_UP_Z);
+    halflit_scene_destroy(other);
+    halflit_renderer_destroy(renderer);
+    halflit_scene_destroy(scene);
+}
+
+static void keep_bytes(void* user, const void* bytes, size_t count) {
+    Kept* const kept = user;
+    kept->bytes = malloc(count);
+    kept->count = count;
+    memcpy(kept->bytes, bytes, count);
+}
+
+static void test_saved_scenes(void) {
+    Cube cube = make_cube();
+    const uint64_t before = draw_cube(NULL, &cube);
+    Kept kept = {NULL, 0};
+    size_t cut;
+    halflit_scene* scene;
+    Cube same = cube;
+    CHECK_OK(halflit_scene_save(cube.scene, keep_bytes, &kept));
+    CHECK_OK(halflit_scene_create(&scene));
+    CHECK_OK(halflit_scene_restore(scene, kept.bytes, kept.count));
+    same.scene = scene;
+    CHECK(draw_cube(NULL, &same) == before);
+    for (cut = 0; cut < kept.count; cut += 1 + cut / 3)
+        CHECK_FAILS(halflit_scene_restore(scene, kept.bytes, cut), HALFLIT_ERROR_BAD_INPUT, "expected the bytes of a scene");
+    ((unsigned char*)kept.bytes)[kept.count / 2] ^= 4;
+    CHECK_FAILS(halflit_scene_restore(scene, kept.bytes, kept.count), HALFLIT_ERROR_BAD_INPUT, "expected the bytes of a scene");
+    CHECK_FAILS(halflit_scene_restore(scene, NULL, 5), HALFLIT_ERROR_USAGE, "bytes is null");
+    CHECK_FAILS(halflit_scene_save(scene, NULL, NULL), HALFLIT_ERROR_USAGE, "write is null");
+    CHECK(draw_cube(NULL, &same) == before);
+    free(kept.bytes);
+    halflit_scene_destroy(scene);
+    free_cube(&cube);
+}
+
+/// Bytes that were changed, with the hash that suits them, are refused, or make a scene that can be drawn.
+static void test_forged_scenes(void) {
+    Cube cube = make_cube();
+    Cube forged = cube;
+    Kept kept = {NULL, 0};
+    size_t at, size;
+    int refused = 0, drawn = 0;
+    CHECK_OK(halflit_scene_save(cube.scene, keep_bytes, &kept));
+    size = kept.count - sizeof(uint64_t);
+    CHECK_OK(halflit_scene_create(&forged.scene));
+    for (at = 0; at < size; at += 1 + size / 400) {
+        unsigned char* const byte = (unsigned char*)kept.bytes + at;
+        const unsigned char before = *byte;
+        uint64_t hash;
+        *byte ^= 0x83;
+        hash = halflit_pixel_hash(kept.bytes, size);
+        memcpy((unsigned char*)kept.bytes + size, &hash, sizeof hash);
+        if (halflit_scene_restore(forged.scene, kept.bytes, kept.count) == HALFLIT_OK) {
+            drawn += draw_cube(NULL, &forged) != 0;
+        } else {
+            CHECK(strstr(halflit_last_error(), "expected the bytes of a scene") != NULL);
+            ++refused;
+        }
+        *byte = before;
+    }
+    CHECK(refused > 20 && drawn > 20);
+    free(kept.bytes);
+    halflit_scene_destroy(forged.scene);
+    free_cube(&cube);
 }
 
 int main(void) {
@@ -1672,7 +1840,10 @@ int main(void) {
         test_animations();
         test_recentre();
         test_parts_of_a_file();
+        test_files_with_z_up();
     }
+    test_saved_scenes();
+    test_forged_scenes();
     test_cameras();
     test_views();
     test_looks_of_instances();

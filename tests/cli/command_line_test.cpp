@@ -130,20 +130,21 @@ TEST_CASE("camera: placed on the axis of a sphere, it sees as much of it as the 
     CHECK(drawn({"sphere:500", "--size", "20", "--camera-position", "0,0,0"}).width == 20);
 }
 
-TEST_CASE("camera: each axis that points up becomes y", "[cli][camera]") {
+TEST_CASE("camera: bounds are the file's whatever axis points up, and views go by it", "[cli][camera]") {
     const TemporaryFolder folder;
-    write_triangle(folder.file("t.gltf"));
-    // Bounds of the triangle (0..1, 0..2, 0) after the turn.
-    const std::vector<std::pair<std::string, std::vector<double>>> cases = {
-        {"y", {0, 0, 0, 1, 2, 0}},   {"z", {0, 0, -2, 1, 0, 0}},  {"x", {-2, 0, 0, 0, 1, 0}},
-        {"-y", {0, -2, 0, 1, 0, 0}}, {"-x", {0, -1, 0, 2, 0, 0}}, {"-z", {0, 0, 0, 1, 0, 2}},
-    };
-    for (const auto& [axis, expected] : cases) {
+    write_triangle(folder.file("t.gltf"));  // in the plane of x and y; its front looks along +z
+    const std::vector<std::pair<std::string, std::string>> cases = {{"y", "front"},  {"-y", "back"}, {"x", "front"},
+                                                                    {"-x", "front"}, {"z", "top"},   {"-z", "bottom"}};
+    for (const auto& [axis, side] : cases) {
         INFO(axis);
         const auto info = nlohmann::json::parse(run({"info", folder.file("t.gltf"), "--up", axis, "--json"}).out);
-        std::vector<double> bounds = info["bounds"]["min"].get<std::vector<double>>();
-        for (const double value : info["bounds"]["max"]) bounds.push_back(value);
-        CHECK(bounds == expected);
+        CHECK(info["bounds"]["min"] == std::vector<double>{0, 0, 0});
+        CHECK(info["bounds"]["max"] == std::vector<double>{1, 2, 0});
+        for (const char* view : {"front", "back", "top", "bottom"}) {
+            const Picture seen = drawn({folder.file("t.gltf"), "--size", "20", "--view", view, "--up", axis, "--contact-shadow", "0",
+                                        "--background", "transparent"});
+            CHECK((pixels_drawn(seen) > 0) == (view == side));
+        }
     }
     CHECK(run({"info", folder.file("t.gltf"), "--up=+Z"}).out == run({"info", folder.file("t.gltf"), "--up", "z"}).out);
 }

@@ -33,6 +33,13 @@ std::string picture_of(const json& result) {
 
 std::string text_of(const json& result) { return result["content"][0]["text"]; }
 
+/// The report: the last line of the text, and nowhere else.
+json report_of(const json& result) {
+    const std::string text = text_of(result);
+    CHECK(!result.contains("structuredContent"));
+    return json::parse(text.substr(text.rfind('\n', text.size() - 2) + 1));
+}
+
 /// Words of a command line for the same picture.
 std::vector<std::string> words_of(const std::string& command, const json& arguments, const std::string& output) {
     std::vector<std::string> words{command, arguments["path"]};
@@ -50,13 +57,12 @@ std::vector<std::string> words_of(const std::string& command, const json& argume
     return words;
 }
 
-/// Of the answers of each tool.
-std::map<std::string, json> schemas_of(McpServer& server) {
-    std::map<std::string, json> schemas;
-    const json answer = server.ask("tools/list");
-    for (const json& tool : answer["result"]["tools"]) schemas[tool["name"]] = tool["outputSchema"];
-    return schemas;
-}
+/// The tools, and the schema of docs/schema that the report of each has.
+const std::map<std::string, std::string> kSchemas{
+    {"look", "look-1.schema.json"},    {"render", "report-1.schema.json"},   {"measure", "measure-1.schema.json"},
+    {"section", "look-1.schema.json"}, {"compare", "compare-1.schema.json"}, {"explain", "explain-1.schema.json"},
+    {"info", "info-1.schema.json"},
+};
 
 struct Models {
     TemporaryFolder folder;
@@ -107,6 +113,7 @@ TEST_CASE("mcp: every tool has a schema of types, with its required arguments am
         CHECK(!schema["required"].empty());
         for (const json& name : schema["required"]) CHECK(schema["properties"].contains(name.get<std::string>()));
     }
+    CHECK(tools.dump().size() <= 12'000);  // an agent pays for each byte, about a quarter of a token
     CHECK(names == std::set<std::string>{"look", "render", "measure", "section", "explain", "info", "compare"});
 }
 
@@ -121,7 +128,7 @@ TEST_CASE("mcp: look gives the sheet and the report of the command", "[cli][mcp]
         const RunSettings in_folder{.folder = models.folder.path()};
         (void)run({"look", model, "--edges", "all", "-o", "sheet.png", "--json", "look.json"}, in_folder);
         CHECK(same(picture_of(result), contents(models.folder.file("sheet.png"))));
-        CHECK(result["structuredContent"] == json::parse(contents(models.folder.file("look.json"))));
+        CHECK(report_of(result) == json::parse(contents(models.folder.file("look.json"))));
         CHECK(contains(text_of(result), "\"schema\":\"halflit.look/1\""));
     }
     // The small box stands inside the large one.
@@ -130,17 +137,14 @@ TEST_CASE("mcp: look gives the sheet and the report of the command", "[cli][mcp]
     CHECK(server.end() == 0);
 }
 
-TEST_CASE("mcp: answers of every tool are valid under the schema that it declares", "[cli][mcp]") {
+TEST_CASE("mcp: answers of every tool are valid under the schema of its report", "[cli][mcp]") {
     const Models models;
     write_contents(models.folder.file("empty.gltf"), R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})");
     McpServer server(models.folder.path());
     server.initialize();
-    const std::map<std::string, json> schemas = schemas_of(server);
     for (const std::string model : {"box.stl", "assembly.gltf", "empty.gltf", "demo"})
-        for (const auto& [tool, schema] : schemas) {
+        for (const auto& [tool, schema] : kSchemas) {
             INFO(tool << " of " << model);
-            CHECK(schema["type"] == "object");
-            CHECK(schema["properties"].contains("left_out"));
             const bool certifies = tool == "look" && model == "box.stl";
             json arguments{{"size", "64"}};
             if (tool == "compare") arguments.update({{"a", model}, {"b", "box.stl"}});
@@ -152,14 +156,10 @@ TEST_CASE("mcp: answers of every tool are valid under the schema that it declare
             const json result = server.call(tool, arguments);
             INFO(text_of(result));
             REQUIRE(result["isError"] == false);
-            const Schema checker = Schema::whole(schema);
-            CHECK(checker.fault(result["structuredContent"]) == "");
+            const Schema checker(schema);
+            CHECK(checker.fault(report_of(result)) == "");
             CHECK(checker.unknown().empty());
-            // The text ends with the same object, in one line.
-            const std::string text = text_of(result);
-            CHECK(json::parse(text.substr(text.rfind('\n', text.size() - 2) + 1)) == result["structuredContent"]);
         }
-    CHECK(schemas.size() == 7);
 }
 
 TEST_CASE("mcp: what a long report leaves out is counted, list by list", "[cli][mcp]") {
@@ -175,17 +175,19 @@ TEST_CASE("mcp: what a long report leaves out is counted, list by list", "[cli][
     }());
     McpServer server(models.folder.path());
     server.initialize();
-    const json schema = schemas_of(server).at("look");
     const json arguments{{"size", "64"}, {"certify", 1}, {"view", {"front"}}};
     const json result = server.call("look", arguments_of("many.obj", arguments));
     const RunSettings in_folder{.folder = models.folder.path()};
     (void)run({"look", "many.obj", "--size", "64", "--certify", "1", "--view", "front", "--json", "whole.json"}, in_folder);
     const json whole = json::parse(contents(models.folder.file("whole.json")));
-    const json cut = result["structuredContent"];
+    const json cut = report_of(result);
     CHECK(whole.dump().size() > 200'000);
     CHECK(cut.dump().size() <= 60'000);
     CHECK(text_of(result).size() < 80'000);
-    CHECK(Schema::whole(schema).fault(cut) == "");
+    json without = cut;
+    without.erase("left_out");
+    CHECK(Schema("look-1.schema.json").fault(without) == "");
+    CHECK(Schema("answer-1.schema.json").fault({{"left_out", cut["left_out"]}}) == "");
     CHECK(!whole.contains("left_out"));
     REQUIRE(cut["left_out"].size() > 1);
     std::set<std::string> lists;
@@ -232,7 +234,7 @@ TEST_CASE("mcp: measures and sections of a box are those of its sides", "[cli][m
     const Models models;
     McpServer server(models.folder.path());
     server.initialize();
-    const json measured = server.call("measure", arguments_of("box.stl"))["structuredContent"];
+    const json measured = report_of(server.call("measure", arguments_of("box.stl")));
     INFO(measured.dump());
     CHECK(measured["measures"]["volume"] == 6000);
     CHECK(measured["measures"]["area"] == 2200);
@@ -240,26 +242,26 @@ TEST_CASE("mcp: measures and sections of a box are those of its sides", "[cli][m
     REQUIRE(measured["parts"].size() == 1);
     for (const auto& [key, value] : measured["parts"][0]["measures"].items()) CHECK(measured["measures"][key] == value);
     CHECK(measured["parts"][0]["measures"].size() >= 5);
-    const json parts = server.call("measure", arguments_of("assembly.gltf"))["structuredContent"]["parts"];
+    const json parts = report_of(server.call("measure", arguments_of("assembly.gltf")))["parts"];
     REQUIRE(parts.size() == 2);
     CHECK(parts[0]["name"] == "outer");
     CHECK(parts[0]["measures"]["volume"] == 1);
     CHECK(parts[1]["measures"]["volume"] == 0.125);
     const json cut = server.call("section", arguments_of("box.stl", {{"section", {"x=50%"}}}));
     INFO(text_of(cut));
-    REQUIRE(cut["structuredContent"]["sections"].size() == 1);
-    CHECK(cut["structuredContent"]["sections"][0]["area"] == 600);
+    REQUIRE(report_of(cut)["sections"].size() == 1);
+    CHECK(report_of(cut)["sections"][0]["area"] == 600);
     CHECK(contains(text_of(cut), "section x=50%: area 600\n"));
     CHECK(picture_of(cut).starts_with("\x89PNG"));
     // The outer box spans -0.5 to 0.5, the inner one half of it.
     const auto removed = [&](const std::string& plane) {
-        const json look = server.call("look", arguments_of("assembly.gltf", {{"section", {plane}}, {"size", "64"}}))["structuredContent"];
+        const json look = report_of(server.call("look", arguments_of("assembly.gltf", {{"section", {plane}}, {"size", "64"}})));
         return std::pair(look["removed_by_section"], look["never_seen"]);
     };
     CHECK(removed("x=0.1") == std::pair(json::array(), json::array()));
     CHECK(removed("x=-0.3") == std::pair(json::array({2}), json::array()));
     CHECK(removed("x=-0.6").first == json::array({1, 2}));
-    const json bodies = server.call("measure", arguments_of("assembly.gltf"))["structuredContent"]["measures"]["body_list"];
+    const json bodies = report_of(server.call("measure", arguments_of("assembly.gltf")))["measures"]["body_list"];
     REQUIRE(bodies.size() == 2);
     CHECK(bodies[0]["part"] == 1);
     CHECK(bodies[1]["part"] == 2);
@@ -268,24 +270,24 @@ TEST_CASE("mcp: measures and sections of a box are those of its sides", "[cli][m
     CHECK(bodies[1]["center"] == json({0, 0, 0}));
     CHECK(bodies[1]["volume"] == 0.125);
     const json info = server.call("info", arguments_of("box.stl"));
-    CHECK(info["structuredContent"] == json::parse(run({"info", "box.stl", "--json"}, {.folder = models.folder.path()}).out));
+    CHECK(report_of(info) == json::parse(run({"info", "box.stl", "--json"}, {.folder = models.folder.path()}).out));
 }
 
 TEST_CASE("mcp: explain tells of the part that look shows in a view's box", "[cli][mcp]") {
     const Models models;
     McpServer server(models.folder.path());
     server.initialize();
-    const json look = server.call("look", arguments_of("assembly.gltf"))["structuredContent"];
+    const json look = report_of(server.call("look", arguments_of("assembly.gltf")));
     for (const json& view : look["views"]) {
         const json& box = view["box"];
         const int x = box[0].get<int>() + box[2].get<int>() / 2, y = box[1].get<int>() + box[3].get<int>() / 2;
         const std::string pixel = std::to_string(x) + "," + std::to_string(y);
         const json story = server.call("explain", arguments_of("assembly.gltf", {{"pixel", {pixel, "0,0"}}, {"of", view["name"]}}));
         INFO(text_of(story));
-        CHECK(story["structuredContent"]["size"] == json({480, 400}));
-        CHECK(story["structuredContent"]["pixels"][0]["shows"] == "surface");
+        CHECK(report_of(story)["size"] == json({480, 400}));
+        CHECK(report_of(story)["pixels"][0]["shows"] == "surface");
         CHECK(contains(text_of(story), "outer"));
-        CHECK(story["structuredContent"]["pixels"][1]["shows"] == "background");
+        CHECK(report_of(story)["pixels"][1]["shows"] == "background");
     }
     CHECK(server.call("explain", arguments_of("box.stl", {{"pixel", "480,0"}}))["isError"] == true);
     CHECK(server.call("explain", arguments_of("box.stl", {{"pixel", "1,1"}, {"of", "left"}}))["isError"] == true);
@@ -298,7 +300,7 @@ TEST_CASE("mcp: a picture in which nothing is seen is told before the report", "
     const json away{{"camera-position", "100,0,0"}, {"camera-target", "200,0,0"}, {"size", "64"}};
     const json look = server.call("look", arguments_of("box.stl", away));
     CHECK(text_of(look).starts_with("FAULT: view view: blank\n"));
-    CHECK(look["structuredContent"]["good"] == false);
+    CHECK(report_of(look)["good"] == false);
     CHECK(text_of(server.call("render", arguments_of("box.stl", away))).starts_with("FAULT: blank"));
 }
 
@@ -368,6 +370,7 @@ TEST_CASE("mcp: arguments that are wrong give an error that names them", "[cli][
     refused("look", arguments_of("box.stl", {{"perspective", "yes"}}), "perspective: expected true or false");
     refused("look", arguments_of("box.stl", {{"hidden_edges", "dashed"}}), "did you mean hidden-edges?");
     refused("look", arguments_of("box.stl", {{"max-memory", 64}}), "unknown argument");
+    refused("look", {{"model", "box.stl"}}, "look: unknown argument 'model', expected some of path, view");
     refused("look", arguments_of("box.stl", {{"size", {"64", "32"}}}), "size");
     refused("render", arguments_of("box.stl", {{"view", "front,top"}}), "expected one view");
     refused("section", arguments_of("box.stl"), "section");
@@ -475,11 +478,11 @@ TEST_CASE("mcp: a kept model is answered sooner, and is loaded anew when its fil
     for (int i = 0; i < 4; ++i) later = std::min(later, ms());
     INFO(first << " ms, then " << later << " ms");
     CHECK(later < first);
-    CHECK(server.call("measure", arguments_of("large.obj"))["structuredContent"]["measures"]["size"] == json({300, 0, 300}));
+    CHECK(report_of(server.call("measure", arguments_of("large.obj")))["measures"]["size"] == json({300, 0, 300}));
     write_contents(path, grid_obj(300, 2.0));
-    CHECK(server.call("measure", arguments_of("large.obj"))["structuredContent"]["measures"]["size"] == json({600, 0, 600}));
+    CHECK(report_of(server.call("measure", arguments_of("large.obj")))["measures"]["size"] == json({600, 0, 600}));
     // Flags of loading count: z up.
-    CHECK(server.call("measure", arguments_of("box.stl"))["structuredContent"]["measures"]["volume"] == 6000);
+    CHECK(report_of(server.call("measure", arguments_of("box.stl")))["measures"]["volume"] == 6000);
     const json turned = server.call("render", arguments_of("box.stl", {{"up", "y"}, {"size", "32"}}));
     const json upright = server.call("render", arguments_of("box.stl", {{"size", "32"}}));
     CHECK(!same(picture_of(turned), picture_of(upright)));

@@ -5,7 +5,6 @@
 
 #include <set>
 #include <string>
-#include <utility>
 
 namespace halflit::test {
 
@@ -14,13 +13,6 @@ class Schema {
 public:
     /// A file of docs/schema.
     explicit Schema(const std::string& file);
-    /// A schema that refers to no file.
-    [[nodiscard]] static Schema whole(nlohmann::json root) {
-        Schema schema;
-        schema.root_ = std::move(root);
-        return schema;
-    }
-
     /// The first fault, as a path and a reason; empty: none.
     [[nodiscard]] std::string fault(const nlohmann::json& value) const { return check(value, root_, file_, "", true); }
 
@@ -28,7 +20,6 @@ public:
     [[nodiscard]] const std::set<std::string>& unknown() const { return unknown_; }
 
 private:
-    Schema() = default;
     struct Place {
         nlohmann::json schema;
         std::string file;

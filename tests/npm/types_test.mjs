@@ -31,6 +31,11 @@ picture.encode("pfm");
 if (new HalflitError("", 5).code === 5) await init({ simd: false, wasm: new Uint8Array(3) });
 export { pixels, file, buffer };
 `;
+// A script of CommonJS.
+const kScript = `import { render } from "halflit";
+async function draw(): Promise<Uint8Array> { return (await render("demo", { width: 32, height: 32 })).png(); }
+export = draw;
+`;
 const kOfDom = `import { init, render } from "halflit";
 const picture = await render(await fetch("model.glb"), { files: (name) => fetch(name) });
 await render(new Blob([picture.png()]));
@@ -53,6 +58,7 @@ if (of_node) {
   symlinkSync(join(of_node, "../../undici-types"), join(project, "node_modules/undici-types"));
 } else console.log("skipped: the types of Node.js are not there");
 writeFileSync(join(project, "common.ts"), kCommon);
+writeFileSync(join(project, "script.cts"), kScript);
 writeFileSync(join(project, "dom.ts"), kOfDom);
 writeFileSync(join(project, "node.ts"), kOfNode);
 // lib, types, sources
@@ -61,9 +67,9 @@ const kCases = [["ES2022 alone", ["es2022"], [], ["common.ts"]], ["the DOM", ["e
 for (const folder of found) {
   const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
   for (const [what, lib, types, files] of kCases)
-    for (const [module, moduleResolution] of [["nodenext", "nodenext"], ["esnext", "bundler"]]) {
+    for (const [module, moduleResolution] of [["node16", "node16"], ["nodenext", "nodenext"], ["esnext", "bundler"]]) {
       const compilerOptions = { noEmit: true, strict: true, exactOptionalPropertyTypes: true, target: "es2022", module, moduleResolution, lib, types };
-      writeFileSync(join(project, "tsconfig.json"), JSON.stringify({ compilerOptions, files }));
+      writeFileSync(join(project, "tsconfig.json"), JSON.stringify({ compilerOptions, files: module === "esnext" ? files : [...files, "script.cts"] }));
       const { status, stdout } = command([process.execPath, join(folder, "bin/tsc"), "--pretty", "false"]);
       const errors = stdout.split("\n").filter((line) => /error TS/.test(line) && !line.includes("node_modules/@types/"));  // theirs are not this package's
       check(`TypeScript ${version}, ${what}, ${moduleResolution}: the types are right`, errors.length === 0 && (status === 0 || stdout.includes("@types/")), errors.join("\n"));

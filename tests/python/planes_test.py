@@ -39,7 +39,7 @@ class Planes(unittest.TestCase):
         planes = picture.aovs
         self.assertEqual(tuple(planes), halflit.AOVS)
         inside = planes["id"] == 1
-        self.assertTrue(inside[5, 10] and planes["id"].dtype == np.uint32)
+        self.assertTrue(inside[5, 10] and planes["id"].dtype == np.int32)
         self.assertTrue(np.allclose(planes["depth"][inside], 4, atol=1e-5))
         self.assertTrue(np.isinf(planes["depth"][~inside]).all())
         for name in ("normal", "vertex_normal"):

@@ -399,12 +399,12 @@ class Uploads(unittest.TestCase):
 
     def test_poses_that_change_move_instances_alone(self):
         self.robot.set_pose(self.links[0], moved(0, 0.1))
-        self.assertEqual(self.calls(), ["place_instances"])
+        self.assertEqual(self.calls(), ["place_instances_double"])
         pose = moved(0, 0.2)
         self.robot.set_pose(self.links[1], pose)
-        self.assertEqual(self.calls(), ["place_instances"])
+        self.assertEqual(self.calls(), ["place_instances_double"])
         pose[0, 3] = 0.5  # scripts write into the array that they gave
-        self.assertEqual(self.calls(), ["place_instances"])
+        self.assertEqual(self.calls(), ["place_instances_double"])
 
     def test_materials_and_vertices_are_uploaded_alone(self):
         primitive = self.links[2].mesh.primitives[0]
@@ -470,9 +470,83 @@ class Uploads(unittest.TestCase):
             self.assertLess(np.mean((self.renderer.render(scene)[1] > 0) != (expected > 0)), 0.005)
         self.calls(scene)
         mesh.primitives[0].poses = poses @ moved(0, 0.1)
-        self.assertEqual(self.calls(scene), ["place_instances"])
+        self.assertEqual(self.calls(scene), ["place_instances_double"])
         mesh.primitives[0].poses = poses[:1]
         self.assertLess((self.renderer.render(scene)[1] > 0).sum(), 0.6 * (expected > 0).sum())
+
+
+class Idioms(unittest.TestCase):
+    """What public scripts do besides the documented interface."""
+
+    def cache_of(self, vertex, fragment):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        paths = [os.path.join(folder.name, name) for name in ("mesh.vert", "mesh.frag")]
+        for path, text in zip(paths, (vertex, fragment)):
+            if text is not None:
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(text)
+
+        class Cache:
+            def get_program(self, vertex_shader, fragment_shader, geometry_shader=None, defines=None):
+                return pyrender.shader_program.ShaderProgram(*paths, defines=defines)
+
+        return Cache()
+
+    def test_modules_are_there(self):
+        self.assertEqual(pyrender.renderer.RenderFlags.SEG, RenderFlags.SEG)
+        self.assertEqual(pyrender.version.__version__, pyrender.__version__)
+        self.assertEqual(pyrender.utils.format_color_vector(255, 4).tolist(), [1, 1, 1, 1])
+        self.assertTrue(np.allclose(pyrender.utils.format_color_array(np.array([255, 0, 51]), (2, 4)), [[1, 0, 0.2, 1]] * 2))
+        self.assertEqual(pyrender.utils.format_texture_source(np.full((2, 3), 0.5), "RGB").shape, (2, 3, 3))
+        self.assertIsNone(pyrender.utils.format_texture_source(None))
+        with tempfile.TemporaryDirectory() as folder:
+            pixels, path = np.arange(48, dtype=np.uint8).reshape(4, 4, 3), os.path.join(folder, "x.png")
+            pyrender.image.save_image(path, pixels, flip_up_down=True)
+            self.assertGreater(os.path.getsize(path), 60)
+
+    def test_a_cache_of_programs_that_show_normals_gives_normals(self):
+        n = np.array([1, 2, 2]) / 3
+        wall = square(5.0, normals=np.tile(n, (4, 1)))
+        pose = np.eye(4)
+        pose[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]  # the camera's x is the world's y
+        pose[2, 3] = 2
+        scene = pyrender.Scene(bg_color=[0.0, 1.0, 0.0, 1.0])
+        scene.add(wall)
+        scene.add(pyrender.PerspectiveCamera(yfov=1.0), pose=pose)
+        turned = "normalize(vec3(transpose(inverse(M)) * vec4(normal, 0)))"
+        world = "void main() { gl_Position = P * V * M * vec4(position, 1); frag_normal = %s; }" % turned
+        fragment = "in vec3 frag_normal; // no lights here\nvoid main() { frag_color = vec4(normalize(frag_normal) * 0.5 + 0.5, 1.0); }"
+        in_view = pose[:3, :3].T @ n
+        for vertex, expected in ((world, n), (world.replace("inverse(M)", "inverse(V * M)"), in_view), (None, n)):
+            renderer = pyrender.OffscreenRenderer(16, 16)
+            renderer._renderer._program_cache = self.cache_of(vertex, None if vertex is None else fragment)
+            color, depth = renderer.render(scene, RenderFlags.SKIP_CULL_FACES)
+            self.assertTrue((np.abs(color[4:12, 4:12].astype(float) - (expected + 1) * 127.5) <= 0.5 + 1e-3).all(), color[8, 8])
+            self.assertAlmostEqual(float(depth[8, 8]), 2, places=5)
+        self.assertEqual(renderer.render(scene, RenderFlags.DEPTH_ONLY).shape, (16, 16))
+        usual = draw(scene, size=16)[0]
+        for cache in (None, self.cache_of(world, "void main() { frag_color = sum_of_lights(normal); }")):
+            renderer._renderer._program_cache = cache
+            self.assertTrue(np.array_equal(renderer.render(scene)[0], usual))
+
+    def test_other_programs_are_refused_by_name(self):
+        renderer = pyrender.OffscreenRenderer(8, 8)
+        renderer._renderer._program_cache = self.cache_of("void main() {}", "void main() { frag_color = vec4(barycentric, 1); }")
+        with self.assertRaisesRegex(NotImplementedError, "mesh.frag: halflit runs no shaders.*aovs"):
+            renderer.render(seen((square(), moved())))
+
+    def test_ambient_light_alone_gives_the_shaders_colours(self):
+        # Of pyrender: (base colour * ambient light + emission) * vertex colour, to the power of 1 / 2.2.
+        colors = np.tile(np.array([200, 100, 50, 255], np.uint8), (4, 1))
+        for metal, ambient, emission in ((0.0, 1.0, 0.0), (1.0, 0.5, 0.0), (0.2, 0.5, 0.1)):
+            material = pyrender.MetallicRoughnessMaterial(
+                baseColorFactor=(0.3, 0.3, 0.3, 1.0), metallicFactor=metal, roughnessFactor=0.8, emissiveFactor=[emission] * 3
+            )
+            wall = square(5.0, material=material, color_0=None if emission else colors)
+            color, _ = draw(seen((wall, moved()), ambient_light=[ambient] * 3))
+            light = 0.3 * ambient * (1 if emission else colors[0, :3] / 255) + emission
+            self.assertTrue((np.abs(color[16, 16] - 255 * np.broadcast_to(light, 3) ** (1 / 2.2)) <= 1).all(), color[16, 16])
 
 
 class Types(unittest.TestCase):

@@ -15,8 +15,9 @@ except ImportError:
     print("skipped: this Python has no numpy")
     sys.exit(77)
 
-suite = unittest.defaultTestLoader.discover(HERE, pattern=sys.argv[1], top_level_dir=HERE)
-result = unittest.TextTestRunner(verbosity=2).run(suite)
-if result.wasSuccessful() and result.testsRun and len(result.skipped) == result.testsRun:
-    sys.exit(77)
-sys.exit(0 if result.wasSuccessful() and result.testsRun else 1)
+if __name__ == "__main__":  # which a process that a test starts is not
+    suite = unittest.defaultTestLoader.discover(HERE, pattern=sys.argv[1], top_level_dir=HERE)
+    result = unittest.TextTestRunner(verbosity=2).run(suite)
+    if result.wasSuccessful() and result.testsRun and len(result.skipped) == result.testsRun:
+        sys.exit(77)
+    sys.exit(0 if result.wasSuccessful() and result.testsRun else 1)

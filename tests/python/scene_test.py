@@ -12,7 +12,7 @@ import warnings
 import numpy as np
 
 import halflit
-from support import CORNERS, FACES, TURN, box, moved
+from support import CORNERS, FACES, LAMPS, TURN, box, moved, stl
 
 
 def render(scene, **keywords):
@@ -344,6 +344,91 @@ class Parts(unittest.TestCase):
         with self.assertRaisesRegex(halflit.UsageError, "up: expected one of"):
             halflit.Scene(up="w")
 
+    def test_files_are_added_to_a_scene(self):
+        # Two links of a robot, and a box of arrays: each where its pose says, by all that a file has.
+        shining = {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 3, 0]}
+        lamp = {"nodes": [{"mesh": 0, "name": "link"}, shining], **LAMPS}
+        scene = halflit.Scene(up="z")
+        scene.add_mesh(CORNERS, FACES, matrix=moved(-4))
+        first = scene.add_file(stl(CORNERS))
+        second = scene.add_file(box(more=lamp), moved(4, 0, 1))
+        self.assertEqual((list(first), list(second)), ([1], [2]))
+        self.assertEqual(scene.bounds.tolist(), [[-5, -1, -1], [5, 1, 2]])
+        self.assertEqual([scene.instance(i)[1][:3, 3].tolist() for i in range(3)], [[-4, 0, 0], [0, 0, 0], [4, 0, 1]])
+        self.assertEqual((scene.look(2)["name"], scene.nodes[scene.look(2)["node"]]["instances"]), ("link", [2]))
+        self.assertEqual(list(scene.light(0).position), [4, 3, 1])
+        picture = scene.render(60, azimuth=10, aovs=["id", "albedo"], samples=1)
+        self.assertEqual(set(np.unique(picture.aovs["id"])), {0, 1, 2, 3})
+        self.assertTrue(np.allclose(picture.aovs["albedo"][picture.aovs["id"] == 3].mean(axis=0), (0.9, 0.2, 0.1), atol=1e-3))
+        scene.set_instance(second[0], moved(0, 4))
+        self.assertEqual(scene.bounds.tolist(), [[-5, -1, -1], [1, 5, 1]])
+        with self.assertRaisesRegex(halflit.UsageError, "up: expected none, or that of the scene"):
+            scene.add_file(stl(CORNERS), up="x")
+        with self.assertRaisesRegex(halflit.UsageError, "matrix|pose: expected"):
+            scene.add_file(stl(CORNERS), np.eye(3))
+        with self.assertRaises(halflit.BadInputError):
+            scene.add_file(b"nothing")
+        self.assertEqual(scene.counts["instances"], 3)
+
+    def test_load_on_a_scene_adds(self):
+        scene = halflit.Scene()
+        self.assertIs(scene.load(stl(CORNERS)), scene)
+        self.assertEqual((scene.counts["meshes"], scene.up), (1, "z"))
+        scene.load(box(translation=[0, 0, 5]))
+        self.assertEqual((scene.counts["meshes"], scene.bounds[1].tolist()), (2, [1, 1, 6]))
+        # Far from the origin and tiny: the first file decides where it is drawn.
+        far = halflit.Scene()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            far.load(box(translation=[1e6, 0, 0])).load(box(translation=[1e6 + 3, 0, 0]))
+            far.load(box(translation=[1e6, 2, 0], scale=[1e-3] * 3))
+        self.assertEqual(far.bounds[:, 0].tolist(), [1e6 - 1, 1e6 + 4])
+        placed = moved(1e6, 2)
+        placed[[0, 1, 2], [0, 1, 2]] = 1e-3
+        self.assertTrue(np.allclose(far.instance(2)[1], placed, rtol=1e-7, atol=1e-12))
+
+    def test_depth_does_not_depend_on_the_far_plane(self):
+        # A square at depth 2.5, and one .002 behind another, by parallel rays.
+        square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32), np.array([[0, 1, 2], [0, 2, 3]])
+        scene, pair = halflit.Scene(), halflit.Scene()
+        scene.add_mesh(square[0] + (0, 0, 0.5), square[1])
+        for z in (-0.002, 0):
+            pair.add_mesh(square[0] + np.float32((0, 0, z)), square[1])
+        for far in (0, 10, 1e3, 1e5, 1e6, 1e30):
+            keywords = {"orthographic": True, "half_height": 1.2, "near_z": 0.1, "far_z": far}
+            camera = halflit.Camera.look_at((0, 0, 3), (0, 0, 0), **keywords)
+            depth = scene.render(64, camera=camera, samples=1, aovs=["depth"]).aovs["depth"]
+            self.assertAlmostEqual(depth[32, 32], 2.5, delta=2.5e-6)  # 2.5438 when it was a share of the way to 1e6
+            seen = pair.render(64, camera=camera, samples=1, aovs=["id"]).aovs["id"]
+            self.assertEqual(((seen == 1).sum(), (seen == 2).sum() > 2000), (0, True), far)
+        cut = halflit.Camera.look_at((0, 0, 3), (0, 0, 0), orthographic=True, half_height=1, far_z=2.4)
+        self.assertEqual((scene.render(16, camera=cut, samples=1, aovs=["id"]).aovs["id"] > 0).sum(), 0)
+
+    def test_near_plane_follows_the_scene(self):
+        # A ball of 5 cm at 8 cm, in metres.
+        u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 40), np.linspace(0, np.pi, 20))
+        ball = 0.025 * np.stack([np.sin(v) * np.cos(u), np.sin(v) * np.sin(u), np.cos(v)], -1).reshape(-1, 3)
+        i = np.arange(19)[:, None] * 40 + np.arange(39)
+        scene = halflit.Scene()
+        scene.add_mesh(ball, np.stack([i, i + 40, i + 1, i + 1, i + 40, i + 41], -1).reshape(-1, 3), name="ball")
+        lens = np.array([[100, 0, 64], [0, 100, 64], [0, 0, 1.0]])
+
+        def pixels(distance, **members):
+            camera = halflit.Camera.from_intrinsics(lens, (128, 128), np.eye(3), (0, 0, distance), **members)
+            return (scene.render(128, camera=camera, samples=1, aovs=["id"]).aovs["id"] > 0).sum()
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            # A ball of radius r at distance d covers pi f^2 r^2 / (d^2 - r^2) pixels; one of 40 x 20 facets a little less.
+            for distance in (0.06, 0.08, 0.2, 40):
+                expected = np.pi * 100**2 * 0.025**2 / (distance**2 - 0.025**2)
+                self.assertLess(abs(pixels(distance) - expected), 0.04 * expected + 4)
+        with self.assertWarnsRegex(UserWarning, "near plane cuts 'ball', instance 0"):
+            self.assertLess(pixels(0.08, near_z=0.09), pixels(0.08))
+        scene._told.clear()
+        with self.assertWarnsRegex(UserWarning, "near plane cuts 'ball', instance 0"):
+            self.assertEqual(pixels(0.08, near_z=0.5), 0)
+
     def test_nodes_of_a_file(self):
         nodes = {"nodes": [{"name": "arm", "children": [1]}, {"name": "hand", "mesh": 0, "translation": [1, 0, 0]}]}
         scene = halflit.Scene.load(box(more=nodes))
@@ -473,8 +558,10 @@ class Parts(unittest.TestCase):
             halflit.render("demo", sampels=4)
         with self.assertRaisesRegex(TypeError, r"'width', the picture's is size=\(width, height\)"):
             halflit.render("demo", width=4)
-        with self.assertRaisesRegex(TypeError, r"'up', it is one of Scene\(\)"):
+        with self.assertRaisesRegex(TypeError, "no keyword up for the demo"):
             halflit.render("demo", up="z")
+        with self.assertRaisesRegex(TypeError, r"'up', it is one of Scene\(\), Scene.load\(\)"):
+            halflit.Scene().render(up="z")
         for name in ("lenien", "time_s", "size", "reserved", "allow_external_count"):
             with self.assertRaisesRegex(TypeError, f"has no keyword '{name}'"):
                 halflit.Scene.load(box(), **{name: 1})

@@ -30,6 +30,20 @@ def program_hash(*arguments, data=None):
     return json.loads(done.stderr.decode())["pixel_hash"]
 
 
+def program_json(*arguments):
+    """What the program prints, as JSON."""
+    return json.loads(subprocess.run([PROGRAM, *arguments], stdout=subprocess.PIPE, check=True).stdout)
+
+
+def stl(corners):
+    """A binary STL of triangles: corners (8, 3) of a box with FACES, or (3 n, 3)."""
+    corners = np.asarray(corners, np.float32)
+    triangles = (corners[FACES] if len(corners) == 8 else corners).reshape(-1, 9)
+    rows = np.zeros((len(triangles), 50), np.uint8)
+    rows[:, 12:48] = triangles.astype("<f4").view(np.uint8)
+    return bytes(80) + struct.pack("<I", len(rows)) + rows.tobytes()
+
+
 def glb(document, *arrays):
     """A GLB of the document, whose bufferViews and accessors for the arrays are made: number i is array i."""
     kinds = {np.dtype("f4"): 5126, np.dtype("u4"): 5125}

@@ -10,6 +10,7 @@ import numpy as np
 import halflit
 import halflit.trimesh
 import stand_ins
+from halflit._trimesh import add_geometry
 from support import CORNERS, FACES, moved
 
 try:
@@ -124,6 +125,47 @@ class OfStandIns(unittest.TestCase):
         self.check(colored("vertex", vertex_colors=colors), scene(colors=colors))
         one = np.tile(np.array([[200, 30, 90, 255]], np.uint8), (12, 1))
         self.check(colored("face", face_colors=one), scene(colors=np.tile(one[:1], (8, 1))))
+
+    def test_each_face_has_its_own_colour(self):
+        # Two triangles make a side of the cube: six sides of six colours, of which a corner shows three.
+        sides = np.repeat(np.arange(6), 2)
+        palette = np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 0], [0, 255, 255], [255, 0, 255]], np.uint8)
+        mesh = colored("face", face_colors=np.pad(palette[sides], ((0, 0), (0, 1)), constant_values=255))
+        picture = halflit.render(mesh, 64, samples=1, aovs=["albedo", "triangle"])
+        seen = picture.aovs["triangle"] > 0
+        numbers = picture.aovs["triangle"][seen] - 1
+        self.assertEqual(len(np.unique(sides[numbers])), 3)
+        self.assertTrue(np.array_equal(picture.aovs["albedo"][seen], (palette[sides[numbers]] > 0).astype(np.float32)))
+
+    def test_what_was_read_from_stl_has_z_up(self):
+        loaded = {"stl": "z", "stl_ascii": "z", "3mf": "z", "glb": "y", None: "y"}
+        for kind, up in loaded.items():
+            mesh = colored()
+            mesh.source = Part(file_type=kind)
+            self.assertEqual(halflit.Scene.from_trimesh(mesh).up, up)
+            self.assertEqual(halflit.Scene.from_trimesh(mesh, up="x").up, "x")
+            bare = halflit.render((CORNERS, FACES), 32, view="top", up=up)
+            self.assertEqual(halflit.render(mesh, 32, view="top").pixel_hash, bare.pixel_hash)
+        older = colored()
+        older.metadata = {"file_name": "part.STL"}
+        self.assertEqual(halflit.Scene.from_trimesh(older).up, "z")
+
+    def test_paths_are_lines(self):
+        class Entity:
+            def __init__(self, points, color=None):
+                self.points, self.color = points, color
+
+            def discrete(self, vertices):
+                return vertices[self.points]
+
+        vertices = np.array([[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0]], float)
+        for columns in (3, 2):
+            path = Part(entities=[Entity([0, 1], np.array([255, 0, 0, 255], np.uint8)), Entity([2, 3])], vertices=vertices[:, :columns])
+            made = halflit.Scene.from_trimesh(path)
+            self.assertEqual(made.bounds.tolist(), [[-1, -1, 0], [1, 1, 0]])
+            picture = made.render(64, camera=halflit.Camera.look_at((0, 0, 4), (0, 0, 0)), background="#00ff00", samples=1, line_width=3)
+            self.assertEqual((picture[32, 20, :3].tolist(), picture[20, 32, :3].tolist()), ([255, 0, 0], [0, 0, 0]))
+        self.assertIsNone(add_geometry(made, Part(entities=[], vertices=vertices), None, True))
 
     def test_a_material_without_uv(self):
         red = {"base_color": (1, 0, 0), "metallic": 1, "roughness": 1}

@@ -1,5 +1,7 @@
-"""Models that are far from the origin, tiny or both: all that is given and asked for is in the file's own world."""
+"""All that is given and asked for has the file's coordinates: of models that are far from the origin, tiny or both, or have z up."""
+import json
 import os
+import subprocess
 import tempfile
 import unittest
 import warnings
@@ -7,7 +9,7 @@ import warnings
 import numpy as np
 
 import halflit
-from support import CAMERA, CORNERS, FACES, LAMPS, box, moved, program_hash
+from support import CAMERA, CORNERS, FACES, LAMPS, PROGRAM, box, moved, program_hash, program_json, stl
 
 FAR = {"translation": [1e6, 0, -3e6]}
 TINY = {"scale": [1e-5] * 3}
@@ -29,7 +31,6 @@ class Worlds(unittest.TestCase):
         for node in (FAR, TINY, BOTH):
             camera = {"nodes": [{"mesh": 0, **node}], **CAMERA}
             scene = halflit.Scene.load(box(more=camera))
-            self.assertFalse(scene._world.is_drawn)
             for keywords in ({}, {"azimuth": 0, "elevation": 0}, {"azimuth": 180}):  # some have a position of nearly 0
                 first = scene.render(80, **keywords)
                 self.check_same(scene.render(80, camera=scene.frame(**{k: float(v) for k, v in keywords.items()})), first)
@@ -123,6 +124,86 @@ class Worlds(unittest.TestCase):
             expected = program_hash(path, "--size", "100", "--camera-position", words[0], "--camera-target", words[1])
             camera = halflit.Camera.look_at(*points, fov_y_rad=np.radians(35), near_z=0.1 * size)
             self.assertEqual(halflit.render(path, 100, camera=camera).pixel_hash, expected, node)
+
+    def test_files_with_z_up_have_their_own_coordinates(self):
+        # A box of 1 x 2 x 3: as an STL file, whose z points up by custom, as arrays, and as a file that says so.
+        corners, folder = (CORNERS + 1) / 2 * (1, 2, 3), tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = os.path.join(folder.name, "box.stl")
+        with open(path, "wb") as file:
+            file.write(stl(corners))
+        arrays = halflit.Scene(up="z")
+        arrays.add_mesh(corners[FACES.astype(int)].reshape(-1, 3))
+        scenes = [halflit.Scene.load(path), arrays, halflit.Scene.load(path, up="y"), halflit.Scene.load(path, up="-x")]
+        self.assertEqual([scene.up for scene in scenes], ["z", "z", "y", "-x"])
+        for scene in scenes:
+            self.assertEqual(scene.bounds.tolist(), [[0, 0, 0], [1, 2, 3]])
+            self.assertEqual(scene.instance(0)[1].tolist(), np.eye(4).tolist())
+        camera = halflit.Camera.look_at((5, 3, 2), (0.5, 1, 1.5), up="z")
+        light = halflit.Light("point", position=(4, -2, 5), color=(20, 20, 20))
+        drawn = []
+        for scene in scenes:
+            scene.add_light(light)
+            drawn.append(scene.render(64, camera=camera, samples=1, studio="never", aovs="all"))
+            found = scene.light(0)
+            self.assertEqual((found.position, found.color), (light.position, light.color))
+        first = drawn[0]
+        for one in drawn[1:]:
+            self.assertEqual(one.camera.matrix.tolist(), camera.matrix.tolist())
+            for name in ("id", "depth", "ray", "position", "normal", "vertex_normal", "view_normal"):
+                # Turned axes change the order of three products in a sum: float32 in a scene of size 4.
+                self.assertLess(np.abs(np.nan_to_num(one.aovs[name] - 1.0 * first.aovs[name])).max(), 2e-6, name)
+        seen = first.aovs["id"] > 0
+        self.assertGreater(seen.sum(), 500)
+        axis, eye = -camera.matrix[:3, 2], camera.matrix[:3, 3]
+        along = (first.aovs["position"][seen] - eye) @ axis
+        self.assertLess(np.abs(along - first.aovs["depth"][seen]).max(), 1e-5)
+
+    def test_named_views_go_by_up(self):
+        # From the top of z, a disc of radius 20 and height 4 fills more than from its side.
+        turn = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+        rim = np.stack([20 * np.cos(turn), 20 * np.sin(turn)], axis=1)
+        points = np.concatenate([np.pad(rim, ((0, 0), (0, 1)), constant_values=z) for z in (-2, 2)] + [[[0, 0, -2]], [[0, 0, 2]]])
+        i, j = np.arange(60), (np.arange(60) + 1) % 60
+        fans = ((i, j, j + 60), (i, j + 60, i + 60), (j, i, i * 0 + 120), (i + 60, j + 60, i * 0 + 121))
+        faces = np.concatenate([np.stack(one, axis=1) for one in fans])
+        share = lambda picture: (np.asarray(picture)[..., 3] > 0).mean()
+        keywords = {"view": "top", "background": "transparent", "contact_shadow": 0}
+        from_z, from_y = (share(halflit.render((points, faces), 64, up=up, **keywords)) for up in ("z", "y"))
+        self.assertEqual(share(halflit.render(stl(points[faces].reshape(-1, 3)), 64, **keywords)), from_z)
+        self.assertGreater(from_z, 3 * from_y)
+
+    def test_planes_of_the_program_have_the_files_coordinates(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path, report = os.path.join(folder.name, "box.stl"), os.path.join(folder.name, "report.json")
+        with open(path, "wb") as file:
+            file.write(stl((CORNERS + 1) / 2 * (1, 2, 3)))
+        told = program_json("info", path, "--json")
+        self.assertEqual(told["bounds"], {"min": [0, 0, 0], "max": [1, 2, 3]})
+        self.assertEqual([told["measures"][end] for end in ("min", "max")], [[0, 0, 0], [1, 2, 3]])
+        flags = ("--size", "80x60", "--view", "iso", "--samples", "1", "--background", "transparent", "--contact-shadow", "0")
+        subprocess.run([PROGRAM, path, *flags, "-o", os.path.join(folder.name, "x.png"), "--report", report, "--quiet"], check=True)
+        with open(report, encoding="utf-8") as file:
+            said = json.load(file)
+        k, r, t = (np.array(said["camera"][name]) for name in "krt")
+        camera = halflit.Camera.from_intrinsics(k, (80, 60), r, t, first_pixel=0.5, near_z=said["camera"]["near"])
+        scene = halflit.Scene.load(path)
+        picture = scene.render((80, 60), camera=camera, samples=1, background="transparent", contact_shadow=0)
+        expected = scene.render((80, 60), view="iso", samples=1, background="transparent", contact_shadow=0)
+        self.assertEqual(expected.pixel_hash, said["pixel_hash"])
+        self.assertTrue(np.array_equal(np.asarray(picture)[..., 3], np.asarray(expected)[..., 3]))
+
+    def test_flags_are_in_the_files_coordinates(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = os.path.join(folder.name, "box.stl")
+        with open(path, "wb") as file:
+            file.write(stl((CORNERS + 1) / 2 * (1, 2, 3)))
+        words = ("--size", "64", "--camera-position", "5,3,2", "--camera-target", "0.5,1,1.5", "--light", "point:pos=4,-2,5:intensity=20")
+        camera = halflit.Camera.look_at((5, 3, 2), (0.5, 1, 1.5), up="z", fov_y_rad=np.radians(35))
+        light = halflit.Light("point", position=(4, -2, 5), color=(20, 20, 20))
+        self.assertEqual(halflit.render(path, 64, camera=camera, lights=[light]).pixel_hash, program_hash(path, *words))
 
     def test_lengths_of_settings(self):
         tiny = halflit.Scene.load(box(**TINY))

@@ -258,6 +258,101 @@ TEST_CASE("planes: depth of an orthographic camera is the distance too, and nega
         }
 }
 
+TEST_CASE("planes: depth by parallel rays does not depend on how far the camera's planes are", "[raster][planes]") {
+    for (const double at : {2.5, 1e4})
+        for (const float far_z : {0.0f, 1e5f, 1e6f, 1e12f, 1e30f})
+            for (const float near_z : {0.1f, -1e6f}) {
+                Scene scene;
+                add(scene, square(2));
+                add(scene, square(1), translation({0, 0, 0.002f}));  // before the other one
+                Camera camera = halflit::test::camera_flat();
+                camera.world_from_camera = translation({0, 0, static_cast<float>(at)});
+                camera.near_z = near_z, camera.far_z = far_z;
+                if (near_z < 0.0f && far_z == 0.0f) continue;  // which cuts all
+                const Planes p = planes_of(scene, camera, {}, 20, 20);
+                INFO("at " << at << ", near " << near_z << ", far " << far_z);
+                double worst = 0;
+                for (std::size_t i = 0; i < p.pixels(); ++i)
+                    worst = std::max(worst, std::fabs(p.depth[i] - (at - (p.instance[i] == 2 ? 0.002 : 0))));
+                // float32 of the depth itself, and shares of some 20 units between the planes.
+                CHECK(worst < at * 6e-8 + 20 * 1.5e-7);
+                CHECK(std::count(p.instance.begin(), p.instance.end(), 2u) == 400);
+            }
+}
+
+TEST_CASE("planes: the caller's planes cut as before where depths have a range of their own", "[raster][planes]") {
+    Scene scene;
+    for (int i = 0; i < 4; ++i) add(scene, square(0.3f), translation({static_cast<float>(i) * 0.5f - 0.75f, 0, static_cast<float>(-i)}));
+    const auto seen = [&](float near_z, float far_z) {
+        Camera camera = halflit::test::camera_flat();
+        camera.world_from_camera = translation({0, 0, 1});
+        camera.near_z = near_z, camera.far_z = far_z;
+        const Planes p = planes_of(scene, camera, {}, 40, 40);
+        std::uint32_t instances = 0;
+        for (const std::uint32_t one : p.instance) instances |= one > 0 ? 1u << (one - 1) : 0u;
+        return instances;
+    };
+    CHECK(seen(0, 1e7f) == 15);  // their distances are 1, 2, 3 and 4
+    CHECK(seen(1.5f, 1e7f) == 14);
+    CHECK(seen(-1e7f, 3.5f) == 7);
+    CHECK(seen(-1e7f, 0.5f) == 0);
+    CHECK(seen(4.5f, 1e7f) == 0);
+}
+
+TEST_CASE("planes: what the near plane cuts is named, and nothing else", "[raster][planes]") {
+    Scene scene;
+    add(scene, square(1), translation({0, 0, -5}));
+    Mesh small = make_box({0.05f, 0.05f, 0.05f});
+    small.name = "bolt";
+    add(scene, std::move(small));
+    const auto warnings = [&](Camera camera) {
+        std::string all;
+        for (const std::string& warning : planes_of(scene, camera, {}, 40, 40).report.warnings) all += warning + "\n";
+        return all;
+    };
+    const auto cuts = [&](const Camera& camera) {
+        return warnings(camera).find("near plane cuts 'bolt', instance 1") != std::string::npos;
+    };
+    Camera camera = camera_at({0, 0, 0.2f}, {0, 0, 0});
+    CHECK(!cuts(camera));  // its front is at .15
+    camera.near_z = 0.17f;
+    CHECK(cuts(camera));
+    camera.near_z = 1;  // all of it lies before the plane
+    CHECK(cuts(camera));
+    camera.near_z = 0;  // chosen
+    CHECK(warnings(camera) == "");
+    // Beside the picture, behind the camera, and turned away.
+    CHECK(!cuts(camera_at({0, 0, 0.2f}, {5, 0, 0.2f}, 0.9f, 1)));
+    CHECK(!cuts(camera_at({0, 0, -0.2f}, {0, 0, -1}, 0.9f, 1)));
+    CHECK(!cuts(camera_at({0, 0, 0}, {0, 0, -1}, 0.9f, 1)));
+    scene.materials[static_cast<std::size_t>(scene.meshes[1].material)].double_sided = true;
+    CHECK(cuts(camera_at({0, 0, 0}, {0, 0, -1}, 0.9f, 1)));
+    // Parallel rays: where the plane crosses it, wherever the eye is.
+    Camera flat = halflit::test::camera_flat();
+    CHECK(!cuts(flat));
+    flat.near_z = 10;
+    CHECK(cuts(flat));
+    flat.near_z = 11;
+    CHECK(cuts(flat));
+    flat.world_from_camera = translation({0, 0, -1});
+    flat.near_z = 0;
+    CHECK(!cuts(flat));  // it lies behind the eye as a whole
+}
+
+TEST_CASE("planes: a near plane of 0 follows the scene", "[raster][planes]") {
+    for (const double size : {1e-3, 1.0, 1e4}) {
+        Scene scene;
+        add(scene, square(static_cast<float>(size)));
+        Camera camera = camera_at({0, 0, static_cast<float>(1.5 * size)}, {0, 0, 0}, 0.9f, 0.0f);
+        const Planes p = planes_of(scene, camera, {}, 20, 20);
+        CHECK(p.instance == std::vector<std::uint32_t>(p.pixels(), 1));
+        CHECK(completed(camera, scene_bounds(scene)).near_z == Approx(0.75 * size).epsilon(1e-6));
+        camera.near_z = 0.25f;
+        CHECK(completed(camera, scene_bounds(scene)).near_z == 0.25f);
+    }
+    CHECK(completed(Camera{}, Bounds{}).near_z == 0.1f);
+}
+
 TEST_CASE("planes: depth of a tilted plane is where its view ray meets it", "[raster][planes]") {
     Random random(11);
     for (int trial = 0; trial < 40; ++trial) {

@@ -115,16 +115,16 @@ TEST_CASE("orbit camera: its flags place a camera with the same view, far from t
         Camera start = centred();
         if (shaped) start.aspect = 2.0f;
         OrbitCamera orbit(start, box());
-        const Vec3d origin{1e7, -3, 0.1};
-        constexpr double kScale = 1.0 / 3.0;
-        CHECK(orbit.flags(1.5, origin, kScale).empty());
+        Placement placement{{1e7, -3, 0.1}, 0.25};
+        placement.up = shaped ? UpAxis::z : UpAxis::y;
+        CHECK(orbit.flags(1.5, placement).empty());
         orbit.turn(40, -20);
-        std::istringstream line(orbit.flags(1.5, origin, kScale));
+        std::istringstream line(orbit.flags(1.5, placement));
         std::vector<std::string> flags;
         for (std::string word; line >> word;) flags.push_back(word);
         const auto options = cli::parse_render_flags(flags);
         REQUIRE(options);
-        const auto drawn = [&](Vec3d p) { return to_float((p - origin) * kScale); };
+        const auto drawn = [&](Vec3d p) { return to_float(placement.into(p)); };
         const Camera placed = cli::placed_camera(drawn(options->camera_position.value()), drawn(options->camera_target.value()),
                                                  options->view.fov_y_deg, box());
         const Mat4 a = raster::clip_from_world(placed, 1.5f), b = raster::clip_from_world(orbit.camera(), 1.5f);
@@ -136,7 +136,7 @@ TEST_CASE("orbit camera: its flags place a camera with the same view, far from t
     flat.half_height = 3;
     OrbitCamera over(flat, box());
     over.turn(10, 10);
-    CHECK(over.flags(1.0, {}, 1.0).empty());
+    CHECK(over.flags(1.0, {}).empty());
 }
 
 TEST_CASE("orbit camera: a scene of one point, or none, has a finite camera", "[viewer]") {

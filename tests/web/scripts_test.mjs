@@ -41,7 +41,7 @@ function load(scripts, globals, names, before = "") {
 
 function test_links() {
   const page = load(["state.js", "orbit.js", "files.js"], { kLibrary },
-    ["kDefaults", "state_of_link", "link_of", "flags_of", "command_of", "stem_of", "view_text", "view_of", "digits"]);
+    ["kDefaults", "state_of_link", "link_of", "flags_of", "command_of", "stem_of", "view_text", "view_of", "digits", "kUpright", "kBack"]);
   const of_link = page.state_of_link, plain = (text) => same(of_link(text), page.kDefaults);
   check("link: an empty one is the usual state", () => plain(""));
   const full = { ...page.kDefaults, scene: "a/b c.glb", size: "320x180", samples: 16, view: "1,2,3,0,0,0,35", time: 0.25, lobe: "sloan", wrap: 0.8, power: 2.5,
@@ -75,6 +75,10 @@ function test_links() {
     const small = { position: [1.234567891e-7, 0, 2e-7], target: [0, 0, 0], fov: 35 };
     return page.view_of({ view: page.view_text(small) }).position.every((x, i) => near(x, small.position[i], 1e-6 * away(small)));
   });
+  check("up: the turns to +y come back, and a light from above shines along the file's axis", () =>
+    Object.entries({ x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1], "-x": [-1, 0, 0], "-y": [0, -1, 0], "-z": [0, 0, -1] }).every(([up, axis]) =>
+      same(page.kUpright[up](axis).map((x) => x + 0), [0, 1, 0]) && same(page.kBack[up](page.kUpright[up]([1, 2, 3])), [1, 2, 3]) &&
+      page.flags_of({ ...page.kDefaults, up, lights: "0,90,1,#ffffff" }).some((flag) => flag.startsWith(`directional:dir=${axis.map((x) => -x + 0)}:`))));
   check("view: the command line has the same numbers", () => page.flags_of({ ...page.kDefaults, view: page.view_text(far) }).includes("500003.2,6000003.4,0.25"));
 }
 

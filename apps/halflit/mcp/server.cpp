@@ -33,7 +33,7 @@ Json text_content(std::string text) { return {{"type", "text"}, {"text", std::mo
 
 Json error_result(const std::string& message) { return {{"content", Json::array({text_content("error: " + message)})}, {"isError", true}}; }
 
-Json result_of(ToolAnswer answer, bool structured) {
+Json result_of(ToolAnswer answer) {
     if (answer.picture.bytes.size() > kMostSentBytes) {
         answer.picture.bytes.clear();
         answer.notes.emplace_back("The picture is too large to be sent; a smaller size or an output shows it");
@@ -46,9 +46,7 @@ Json result_of(ToolAnswer answer, bool structured) {
     Json content = Json::array({text_content(bounded_lines(std::move(text)) + to_text(answer.report, true))});
     if (!answer.picture.bytes.empty())
         content.push_back({{"type", "image"}, {"data", base64(answer.picture.bytes)}, {"mimeType", answer.picture.mime_type}});
-    Json result{{"content", std::move(content)}, {"isError", false}};
-    if (structured) result["structuredContent"] = std::move(answer.report);
-    return result;
+    return {{"content", std::move(content)}, {"isError", false}};
 }
 
 class Tools : public ToolHost {
@@ -66,15 +64,14 @@ public:
         for (const Tool& tool : all_tools()) names.push_back(tool.name);
         return std::find(names.begin(), names.end(), name) != names.end() ? std::nullopt : std::optional(did_you_mean(name, names));
     }
-    [[nodiscard]] std::optional<Json> call(const nlohmann::json& id, const std::string& name, const nlohmann::json& arguments,
-                                           bool structured) override {
+    [[nodiscard]] std::optional<Json> call(const nlohmann::json& id, const std::string& name, const nlohmann::json& arguments) override {
         const auto tools = all_tools();
         const Tool& tool = *std::find_if(tools.begin(), tools.end(), [&](const Tool& one) { return one.name == name; });
         queue_.begin_call(id);
         Json result;
         try {
             auto answer = run(tool, arguments);
-            result = answer ? result_of(std::move(*answer), structured) : error_result(answer.error().message);
+            result = answer ? result_of(std::move(*answer)) : error_result(answer.error().message);
         } catch (const std::bad_alloc&) {
             result = error_result("out of memory");
         } catch (const std::exception& exception) {

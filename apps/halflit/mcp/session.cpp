@@ -15,8 +15,7 @@ using Message = nlohmann::json;
 
 constexpr std::string_view kProtocols[] = {"2024-11-05", "2025-03-26", "2025-06-18"};
 constexpr std::string_view kProtocolWithBatches = "2025-03-26";  // the others have none
-constexpr std::string_view kProtocolWithStructure = "2025-06-18";
-constexpr std::size_t kMostBatch = 32;  // messages
+constexpr std::size_t kMostBatch = 32;                           // messages
 
 enum RpcCode : int { kInvalidRequest = -32600, kUnknownMethod = -32601, kInvalidParams = -32602, kInternalError = -32603 };
 
@@ -97,7 +96,7 @@ Json McpSession::call(const Message& id, const Message& params) {
     if (!arguments.is_object()) return rpc_error(id, kInvalidParams, "arguments: expected an object");
     const std::string tool = name->get<std::string>();
     if (const auto hint = host_.unknown(tool)) return rpc_error(id, kInvalidParams, "unknown tool '" + tool + "'" + *hint);
-    auto result = host_.call(id, tool, arguments, version_ == kProtocolWithStructure);
+    auto result = host_.call(id, tool, arguments);
     return result ? rpc_result(id, std::move(*result)) : Json();
 }
 

@@ -18,9 +18,8 @@ public:
     [[nodiscard]] virtual Json list() const = 0;
     /// " (did you mean NAME?)" or nothing, for a name that no tool has; none for one that a tool has.
     [[nodiscard]] virtual std::optional<std::string> unknown(const std::string& name) const = 0;
-    /// The result, {"content", "isError", ..}; none if the call was cancelled. arguments: an object. structured: with "structuredContent".
-    [[nodiscard]] virtual std::optional<Json> call(const nlohmann::json& id, const std::string& name, const nlohmann::json& arguments,
-                                                   bool structured) = 0;
+    /// The result, {"content", "isError", ..}; none if the call was cancelled. arguments: an object.
+    [[nodiscard]] virtual std::optional<Json> call(const nlohmann::json& id, const std::string& name, const nlohmann::json& arguments) = 0;
     /// For the model that uses the tools.
     [[nodiscard]] virtual std::string instructions() const = 0;
 };

@@ -45,7 +45,6 @@ struct ToolCall {
 
 struct Tool {
     std::string name, help;
-    std::string_view schema;              ///< of the report: a file of docs/schema, or a place in one
     bool writes = false;                  ///< it has --output
     std::vector<std::string_view> shown;  ///< long names of flags in the schema; others of the call are taken too
     std::vector<std::string_view> required;
@@ -54,7 +53,7 @@ struct Tool {
 
 [[nodiscard]] std::span<const Tool> all_tools();
 
-/// {"name", "description", "inputSchema", "outputSchema", "annotations"}
+/// {"name", "description", "inputSchema", "annotations"}
 [[nodiscard]] Json tool_json(const Tool& tool);
 
 /// Reads arguments by the call's flags: "hidden-edges" is --hidden-edges. Numbers and true for a switch are taken as their texts, and a

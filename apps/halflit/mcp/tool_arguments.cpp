@@ -1,7 +1,6 @@
 #include "apps/halflit/mcp/tool.hpp"
 #include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/render/built_in_scenes.hpp"
-#include "apps/halflit/report/schemas.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,10 +39,19 @@ Json type_of(const Flag& flag) {
     return {{"type", number ? "number" : "string"}};
 }
 
+/// The first sentences of a help, as many as stay short: an agent pays for each word of each tool.
+std::string brief(const std::string& help) {
+    constexpr std::size_t kMostBytes = 120;
+    std::size_t end = help.find(". ");
+    for (std::size_t next = end; next != std::string::npos && next <= kMostBytes; next = help.find(". ", next + 1)) end = next;
+    if (end == std::string::npos || help.size() <= kMostBytes) return help;
+    return help.substr(0, end);
+}
+
 Json property_of(const Flag& flag) {
     Json property = flag.repeated ? Json{{"type", "array"}, {"items", type_of(flag)}} : type_of(flag);
     const bool explains = !flag.form.empty() && choices_of(flag.form).empty() && flag.form.find_first_of("|,:=") != std::string::npos;
-    property["description"] = (explains ? flag.form + ": " : "") + flag.help;
+    property["description"] = (explains ? flag.form + ": " : "") + brief(flag.help);
     return property;
 }
 
@@ -110,13 +118,10 @@ Json tool_json(const Tool& tool) {
     for (const std::string_view name : tool.shown)
         if (const Flag* const flag = find_flag(call, name)) properties[std::string(name)] = property_of(*flag);
     Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"required", tool.required}};
-    Json answer = whole_schema(tool.schema);
-    answer["properties"].update(whole_schema("answer-1.schema.json")["properties"]);
     return {{"name", tool.name},
             {"description", tool.help},
             {"inputSchema", std::move(schema)},
-            {"outputSchema", std::move(answer)},
-            {"annotations", {{"readOnlyHint", !tool.writes}, {"idempotentHint", true}, {"openWorldHint", false}}}};
+            {"annotations", {{"readOnlyHint", !tool.writes}, {"openWorldHint", false}}}};
 }
 
 Result<void> read_arguments(const Tool& tool, const ToolCall& call, const Value& arguments, const ModelFolder& folder) {
@@ -126,7 +131,10 @@ Result<void> read_arguments(const Tool& tool, const ToolCall& call, const Value&
             std::vector<std::string> names;
             for (const FlagGroup& group : call.groups)
                 for (const Flag& one : group.flags) names.push_back(argument_of(one));
-            return fail(ErrorCode::usage, tool.name + ": unknown argument '" + name + "'" + did_you_mean(name, names));
+            const std::string hint = did_you_mean(name, names);
+            const std::vector<std::string> shown(tool.shown.begin(), tool.shown.end());
+            return fail(ErrorCode::usage, tool.name + ": unknown argument '" + name + "'" +
+                                              (hint.empty() ? ", expected some of " + joined(shown, ", ") : hint));
         }
         if (const auto read = read_argument(*flag, value, folder); !read)
             return fail(read.error().code, name + ": " + read.error().message);

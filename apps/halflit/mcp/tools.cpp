@@ -80,7 +80,7 @@ std::string bodies_with(const Json& measures, const char* edges) {
     return fmt::format(" ({} {}{} of body_list)", numbers.size() == 1 ? "body" : "bodies", joined(numbers, ", "), more ? " and more" : "");
 }
 
-/// What measures tell of the surface.
+/// What measures tell of the surface. FAULT is kept for what makes a report's `good` false.
 std::vector<std::string> notes_of_measures(const Json& measures) {
     std::vector<std::string> notes;
     if (!measures.is_object()) return notes;
@@ -89,10 +89,10 @@ std::vector<std::string> notes_of_measures(const Json& measures) {
         return n > 0 ? fmt::format(", {} {}{}", n, words, bodies_with(measures, key)) : std::string();
     };
     if (measures["watertight"] == false)
-        notes.push_back("FAULT: not watertight" + edges("open_edges", "open edges") + edges("flipped_edges", "flipped edges") +
+        notes.push_back("WARNING: not watertight" + edges("open_edges", "open edges") + edges("flipped_edges", "flipped edges") +
                         edges("crowded_edges", "edges of more than two triangles") + ": it has no volume");
     else if (measures["volume"].is_number() && measures["volume"].get<double>() < 0.0)
-        notes.emplace_back("FAULT: inside out: the volume is negative, so all faces look inwards");
+        notes.emplace_back("WARNING: inside out: the volume is negative, so all faces look inwards");
     else if (measures["crowded_edges"].get<std::uint64_t>() > 0)
         notes.push_back("WARNING:" + edges("crowded_edges", "edges of more than two triangles").substr(1) +
                         ": bodies touch, or faces are there twice; the volume may count twice");
@@ -114,7 +114,7 @@ std::string section_note(const LookCall& call, const Json& cut) {
     const auto name = cut["name"].get<std::string>();
     return fmt::format("section {}: area {:.7g}{}{}", plane < call.sections.size() ? call.sections[plane].text : std::to_string(plane),
                        cut["area"].get<double>(), name.empty() ? "" : " of " + name,
-                       cut["closed"] == true ? "" : "; FAULT: its outline is open, so the area is not reliable");
+                       cut["closed"] == true ? "" : "; WARNING: its outline is open, so the area is not reliable");
 }
 
 Result<ToolAnswer> run_look_tool(const LookCall& call) {
@@ -225,7 +225,7 @@ Result<ToolAnswer> run_measure_tool(const RenderOptions& options) {
     if (!parts) return tl::unexpected(parts.error());
     ToolAnswer answer;
     if (measures->is_null())
-        answer.notes.emplace_back("FAULT: nothing was measured: there are no triangles, or more than 2^25 by drawing meshes again");
+        answer.notes.emplace_back("WARNING: nothing was measured: there are no triangles, or more than 2^25 by drawing meshes again");
     for (const std::string& note : notes_of_measures(*measures)) answer.notes.push_back(note);
     for (const std::string& warning : job->warnings) answer.notes.push_back("WARNING: " + warning);
     answer.report = report_head("measure");
@@ -247,11 +247,8 @@ std::span<const Tool> all_tools() {
     static const Tool kTools[] = {
         {"look",
          "Look at a 3D model: labelled views on one sheet with dimensions, and a report of what each view shows of each part. Begin here "
-         "after "
-         "making or changing a model. Lines that begin with FAULT come first: a view with a fault (blank, cropped, cut, inside, tiny) must "
-         "not "
-         "be relied on. Takes all flags of `halflit look` by their names",
-         "look-1.schema.json",
+         "after making or changing a model. Lines that begin with FAULT come first: a view with a fault (blank, cropped, cut, inside, "
+         "tiny) must not be relied on. Takes all flags of `halflit look` by their names",
          true,
          {"path", "view", "section", "edges", "hidden-edges", "size", "perspective", "projection", "certify", "up", "output"},
          {"path"},
@@ -260,7 +257,6 @@ std::span<const Tool> all_tools() {
          "Draw one picture of a 3D model from a view or a placed camera, shaded and lit. Takes all flags of `halflit render` that decide "
          "the "
          "picture by their names",
-         "report-1.schema.json#/$defs/picture",
          true,
          {"path", "view", "azimuth", "elevation", "zoom", "fov", "camera", "camera-position", "camera-target", "size", "samples",
           "background", "light", "env", "ground", "edges", "section", "up", "output"},
@@ -268,14 +264,12 @@ std::span<const Tool> all_tools() {
          render_call},
         {"measure",
          "Measure a 3D model and each of its parts: box, area, volume, centre, bodies, and whether the surface is watertight",
-         "measure-1.schema.json",
          false,
          {"path", "section", "up"},
          {"path"},
          scene_call<run_measure_tool>},
         {"section",
          "Cut a 3D model by planes: the areas of the cuts, and a sheet of views of what is left",
-         "look-1.schema.json",
          true,
          {"path", "section", "section-hatch", "view", "edges", "size", "perspective", "up", "output"},
          {"path", "section"},
@@ -283,7 +277,6 @@ std::span<const Tool> all_tools() {
         {"compare",
          "Compare two versions of a 3D model: pictures of both by one camera with what changed, parts, measures, and the distance of the "
          "surfaces with its bound",
-         "compare-1.schema.json",
          true,
          {"a", "b", "view", "max", "size", "up", "output"},
          {"a", "b"},
@@ -291,14 +284,12 @@ std::span<const Tool> all_tools() {
         {"explain",
          "Tell what made a pixel of a view of `look`: part, triangle, material, lights, and what lies before and behind it. The views are "
          "those of look with the same arguments; boxes in its report are in the same pixels",
-         "explain-1.schema.json",
          false,
          {"path", "pixel", "of", "view", "section", "size", "perspective", "up"},
          {"path", "pixel"},
          explain_call},
         {"info",
          "Describe a 3D model's file: format, counts, names, measures, materials and what drawing it requires",
-         "info-1.schema.json",
          false,
          {"path", "scene", "animation", "variant", "up"},
          {"path"},

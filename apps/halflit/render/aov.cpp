@@ -21,6 +21,16 @@ namespace {
 Result<void> as_rays(const RenderJob& job, const Camera& camera, AovPlane& plane) {
     return make_ray_distances(camera, {job.width, job.height}, job.settings.region, plane.floats);
 }
+/// Normals along the axes of the file.
+Result<void> as_normals(const RenderJob& job, const Camera&, AovPlane& plane) {
+    const UpAxis up = job.source.placement.up;
+    for (std::size_t i = 0; up != UpAxis::y && i < plane.floats.size(); i += 3) {
+        float* const n = &plane.floats[i];
+        const Vec3f told = to_float(turned_back(Vec3d{n[0], n[1], n[2]}, up));
+        n[0] = told.x, n[1] = told.y, n[2] = told.z;
+    }
+    return {};
+}
 Result<void> as_view_normals(const RenderJob&, const Camera& camera, AovPlane& plane) { return make_view_normals(camera, plane.floats); }
 Result<void> as_meshes(const RenderJob& job, const Camera&, AovPlane& plane) {
     make_mesh_numbers(job.scene(), plane.numbers);
@@ -46,7 +56,7 @@ constexpr AovKind kKinds[] = {
     {"depth", AovFormat::floats, 1, &Target::depth, nullptr, nullptr, false, "distance along the view axis; infinity where nothing is"},
     {"ray", AovFormat::floats, 1, &Target::depth, nullptr, as_rays, false,
      "distance from the camera's eye, along the ray through the pixel's centre; infinity where nothing is"},
-    {"normal", AovFormat::floats, 3, &Target::shading_normal, nullptr, nullptr, false,
+    {"normal", AovFormat::floats, 3, &Target::shading_normal, nullptr, as_normals, false,
      "unit normal that light falls on, normal map included, in world space"},
     {"view_normal", AovFormat::floats, 3, &Target::shading_normal, nullptr, as_view_normals, false,
      "the same in the camera's space: x to the right, y up, z towards the viewer"},
@@ -189,14 +199,13 @@ void AovPlanes::add_to(Target& target) {
 }
 
 void AovPlanes::to_world_of_file(const RenderJob& job) {
-    const double scale = job.source.placement.scale;
-    const Vec3d origin = job.source.placement.origin;
-    if (scale == 1.0 && origin == Vec3d{}) return;
+    const Placement& placement = job.source.placement;
+    if (placement == Placement{}) return;
     const auto has = [&](float* Target::*floats) {
         return std::any_of(drawn_.begin(), drawn_.end(), [=](const Drawn& one) { return one.floats == floats; });
     };
     if (!has(&Target::depth)) return;
-    const auto inverse = static_cast<float>(1.0 / scale);  // a power of two
+    const auto inverse = static_cast<float>(1.0 / placement.scale);  // a power of two
     const bool has_position = has(&Target::position);
     for (std::size_t i = 0; i < static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); ++i) {
         float& depth = drawn(&Target::depth, nullptr, 1).floats[i];
@@ -204,10 +213,8 @@ void AovPlanes::to_world_of_file(const RenderJob& job) {
         depth *= inverse;
         if (!has_position) continue;
         float* const p = &drawn(&Target::position, nullptr, 3).floats[3 * i];
-        const Vec3d at = Vec3d{p[0], p[1], p[2]} * (1.0 / scale) + origin;
-        p[0] = static_cast<float>(at.x);
-        p[1] = static_cast<float>(at.y);
-        p[2] = static_cast<float>(at.z);
+        const Vec3f at = to_float(placement.out(Vec3d{p[0], p[1], p[2]}));
+        p[0] = at.x, p[1] = at.y, p[2] = at.z;
     }
 }
 

@@ -1,6 +1,5 @@
 #include "apps/halflit/render/given_camera.hpp"
 
-#include "apps/halflit/render/scene_view.hpp"
 #include "apps/io/files/text.hpp"
 #include "raster/detail/view_math.hpp"
 #include "sh/vec3d.hpp"
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 namespace halflit::cli {
 namespace {
@@ -24,18 +24,6 @@ void scale_lengths(Camera& camera, double factor) {
         *side = scaled(*side, factor);
 }
 
-/// Distance of the farthest corner before the camera.
-float far_plane(const Camera& camera, const Bounds& bounds) {
-    const Vec4f &back = camera.world_from_camera.c[2], &eye = camera.world_from_camera.c[3];
-    float farthest = camera.near_z;
-    for (int corner = 0; corner < 8 && !bounds.empty; ++corner) {
-        const Vec3f p{corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                      corner & 4 ? bounds.max.z : bounds.min.z};
-        farthest = std::max(farthest, dot(Vec3f{eye.x, eye.y, eye.z} - p, Vec3f{back.x, back.y, back.z}));
-    }
-    return farthest + std::max(0.01f * (farthest - camera.near_z), 1e-6f * farthest);
-}
-
 }  // namespace
 
 Camera placed(const GivenCamera& given, const Placement& placement, const Bounds& bounds) {
@@ -47,9 +35,7 @@ Camera placed(const GivenCamera& given, const Placement& placement, const Bounds
     camera.world_from_camera = {
         {axis(given.right), axis(given.up), axis(given.back), raster::column({within(eye.x), within(eye.y), within(eye.z)}, 1)}};
     scale_lengths(camera, placement.scale);
-    if (!camera.orthographic && !(camera.near_z > 0.0f)) camera.near_z = near_plane(camera.world_from_camera, bounds);
-    if (camera.orthographic && !(camera.far_z > camera.near_z)) camera.far_z = far_plane(camera, bounds);
-    return camera;
+    return completed(std::move(camera), bounds);
 }
 
 GivenCamera in_file(const Camera& camera, const Placement& placement) {
@@ -71,7 +57,6 @@ Result<GivenCamera> camera_of(const Intrinsics& intrinsics, const std::array<dou
     auto lens = Camera::from_intrinsics(intrinsics, rotation, translation);
     if (!lens) return tl::unexpected(lens.error());
     GivenCamera camera{.lens = std::move(*lens), .size = PictureSize{intrinsics.width, intrinsics.height}};
-    camera.lens.near_z = 0.0f;
     const auto& r = rotation;
     camera.right = {r[0], r[1], r[2]};
     camera.up = Vec3d{r[3], r[4], r[5]} * -1.0;

@@ -17,8 +17,7 @@ struct GivenCamera {
     std::string name{};
     Vec3d right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1};  ///< of the picture, unit vectors; the camera looks against `back`
     Vec3d eye{0, 0, 0};
-    /// What it sees; lengths are in the file's unit. Its name and its place do not count. near_z 0 of a perspective camera and far_z 0 of
-    /// an orthographic one are chosen with the scene.
+    /// What it sees; lengths are in the file's unit. Its name and its place do not count.
     Camera lens{};
     std::optional<PictureSize> size{};  ///< of the picture that it is made for
     bool horizontal_fov = false;        ///< lens.fov_y_rad is the horizontal angle; pixels are square
@@ -31,7 +30,7 @@ struct CameraFile {
     std::vector<std::string> warnings;  ///< one line each
 };
 
-/// The camera in the scene, which draws the model at `placement`. bounds: of the scene, for distances that are to be chosen.
+/// The camera in the scene, which draws the model at `placement`. bounds: of the scene, for completed().
 [[nodiscard]] Camera placed(const GivenCamera& given, const Placement& placement, const Bounds& bounds);
 
 /// The way back: a camera of the scene in the coordinates of the model's file, without a size.

@@ -44,11 +44,11 @@ void each_key(View& view, const Visit& visit) {
 }
 
 /// Distances of the box's nearest and farthest corner along the view axis.
-std::pair<double, double> depths(const KeptView& view, Vec3d eye, const Bounds& bounds) {
+std::pair<double, double> depths(Vec3d back, Vec3d eye, const Bounds& bounds) {
     double nearest = std::numeric_limits<double>::max(), farthest = -nearest;
     for (unsigned i = 0; i < 8; ++i) {
         const Vec3d p{i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y, i & 4 ? bounds.max.z : bounds.min.z};
-        const double depth = dot(eye - p, view.back);
+        const double depth = dot(eye - p, back);
         nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
     }
     return {nearest, farthest};
@@ -58,11 +58,11 @@ std::pair<double, double> depths(const KeptView& view, Vec3d eye, const Bounds& 
 
 KeptView kept_view(const Camera& camera, const Bounds& bounds, const Settings& settings, const Placement& placement) {
     const double unit = 1.0 / placement.scale;  // a power of two
-    const auto out = [&](Vec3d p) { return p * unit + placement.origin; };
-    const Mat4& m = camera.world_from_camera;
+    const auto out = [&](Vec3d p) { return placement.out(p); };
+    const auto direction = [&](std::size_t i) { return turned_back(column_of(camera.world_from_camera, i), placement.up); };
     KeptView view;
-    view.eye = out(column_of(m, 3));
-    view.right = column_of(m, 0), view.up = column_of(m, 1), view.back = column_of(m, 2);
+    view.eye = out(column_of(camera.world_from_camera, 3));
+    view.right = direction(0), view.up = direction(1), view.back = direction(2);
     view.orthographic = camera.orthographic;
     if (camera.orthographic)
         view.half_height = camera.half_height * unit;
@@ -79,9 +79,10 @@ KeptView kept_view(const Camera& camera, const Bounds& bounds, const Settings& s
 
 Camera camera_of(const KeptView& view, const Placement& placement, const Bounds& bounds) {
     const double scale = placement.scale;
-    const Vec3d eye = (view.eye - placement.origin) * scale;
+    const Vec3d eye = placement.into(view.eye), back = turned_upright(view.back, placement.up);
+    const auto direction = [&](Vec3d v) { return column_from(turned_upright(v, placement.up), 0); };
     Camera camera;
-    camera.world_from_camera = {{column_from(view.right, 0), column_from(view.up, 0), column_from(view.back, 0), column_from(eye, 1)}};
+    camera.world_from_camera = {{direction(view.right), direction(view.up), column_from(back, 0), column_from(eye, 1)}};
     camera.orthographic = view.orthographic;
     if (view.orthographic)
         camera.half_height = static_cast<float>(view.half_height * scale);
@@ -89,7 +90,7 @@ Camera camera_of(const KeptView& view, const Placement& placement, const Bounds&
         camera.fov_y_rad = static_cast<float>(view.fov_y_rad);
     double near_z = view.near_z * scale, far_z = view.far_z * scale;
     if (!bounds.empty) {
-        const auto [nearest, farthest] = depths(view, eye, bounds);
+        const auto [nearest, farthest] = depths(back, eye, bounds);
         if (view.orthographic) {
             const double room = 1e-3 * (far_z - near_z);
             if (nearest < near_z + room) near_z = nearest - room;
@@ -105,7 +106,7 @@ Camera camera_of(const KeptView& view, const Placement& placement, const Bounds&
 Bounds bounds_of(const KeptView& view, const Placement& placement) {
     Bounds bounds;
     if (view.empty) return bounds;
-    for (const Vec3d corner : {view.low, view.high}) bounds.add(to_float((corner - placement.origin) * placement.scale));
+    for (const Vec3d corner : {view.low, view.high}) bounds.add(to_float(placement.into(corner)));
     return bounds;
 }
 

@@ -12,7 +12,7 @@
 
 namespace halflit::cli {
 
-/// Lengths are in the file's unit; coordinates are those of flags: the file's, turned so that y is up.
+/// Lengths are in the file's unit, and coordinates are the file's.
 struct KeptView {
     Vec3d eye, right, up, back;  ///< the camera's position and axes
     bool orthographic = false;

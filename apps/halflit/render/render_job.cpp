@@ -293,14 +293,14 @@ void tell_choices(RenderJob& job, const RenderOptions& given) {
                                                                 : "light grey, as surfaces are dark"));
 }
 
-/// The flags' coordinates are the file's with y up; the scene may be drawn elsewhere, and larger or smaller. The margin is in pixels of the
+/// The flags' coordinates are the file's; the scene may be drawn turned, elsewhere, and larger or smaller. The margin is in pixels of the
 /// picture.
 RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, PictureSize usual) {
     const Placement& place = source.placement;
     const auto times = [](float value, double factor) { return static_cast<float>(std::clamp(value * factor, -3e38, 3e38)); };
     const auto placed = [&](Vec3d p) {
         const auto within = [](double x) { return std::clamp(x, -3e38, 3e38); };
-        const Vec3d at = (p - place.origin) * place.scale;
+        const Vec3d at = place.into(p);
         return Vec3d{within(at.x), within(at.y), within(at.z)};
     };
     if (options.camera_position) options.camera_position = placed(*options.camera_position);
@@ -320,6 +320,7 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, P
     options.settings.shadow_fade = times(options.settings.shadow_fade, place.scale);
     options.lamp_size = times(options.lamp_size, place.scale);
     for (auto& [light, position] : options.lights) {
+        light.direction_ws = to_float(turned_upright(to_double(light.direction_ws), place.up));
         if (!kind_of(light.type).placed) continue;
         light.position_ws = to_float(placed(position));
         light.range = times(light.range, place.scale);

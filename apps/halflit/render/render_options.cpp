@@ -157,9 +157,10 @@ FlagGroup camera_flags(RenderOptions& o) {
           read_text(o.camera_file)},
          {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
          {"--up", form_of(kUpAxisNames),
-          fmt::format("Axis of the model that points up (default {}, and z for STL and 3MF). The scene is turned so that it becomes y; the "
-                      "coordinates of other flags are those of the turned scene",
-                      name_of(UpAxis::y, kUpAxisNames)),
+          fmt::format(
+              "Axis of the model that points up (default {}, and z for STL and 3MF): views, the ground and the light from above go by "
+              "it. All coordinates are the file's",
+              name_of(UpAxis::y, kUpAxisNames)),
           [&o](const std::string& text) {
               UpAxis up{};
               const auto read = named(up, kUpAxisNames)(plain_axis(text));
@@ -360,7 +361,9 @@ namespace {
 
 FlagGroup line_flags(RenderOptions& o) {
     return {"Lines",
-            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)", [&o](const std::string& text) {
+            {{"--edge-color", "COLOR",
+              "Colour of the lines: #rgb, #rrggbb or a name (default black). Dark lines are light on surfaces that are as dark",
+              [&o](const std::string& text) {
                   return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
               }}}};
 }

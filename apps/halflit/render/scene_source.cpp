@@ -25,10 +25,16 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
     auto built_in = built_in_scene(name);
     if (!built_in) return tl::unexpected(built_in.error());
     if (*built_in) {
-        turn_upright(**built_in, options.load.up.value_or(UpAxis::y));
+        const UpAxis up = options.load.up.value_or(UpAxis::y);
+        turn_upright(**built_in, up);
         auto scene = std::make_unique<Scene>(std::move(**built_in));
         auto parts = std::make_shared<Parts>(*scene);
-        return SceneSource{.name = name, .scene = std::move(scene), .file = std::nullopt, .warnings = {}, .parts = std::move(parts)};
+        return SceneSource{.name = name,
+                           .scene = std::move(scene),
+                           .file = std::nullopt,
+                           .warnings = {},
+                           .placement = {.up = up},
+                           .parts = std::move(parts)};
     }
     auto loaded = load_file(options);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")

@@ -6,11 +6,7 @@
 
 namespace halflit::cli {
 
-/// Distance of a near plane: half way to the nearest point of `bounds`, or a small share of the scene's size if that is more; the default
-/// for empty bounds.
-[[nodiscard]] float near_plane(const Mat4& world_from_camera, const Bounds& bounds);
-
-/// Perspective camera at a place, with that near plane.
+/// Perspective camera at a place, whose near plane the box of the scene decides.
 [[nodiscard]] Camera placed_camera(const Mat4& world_from_camera, float fov_y_deg, const Bounds& bounds);
 
 /// Perspective camera at `eye` that looks at `target`, with +y up.

@@ -20,11 +20,12 @@ Result<PixelStories> tell_pixels(const RenderJob& job, std::span<const PixelPlac
     PixelStories stories{report_head("explain"), {}};
     Json list = Json::array();
     for (const auto& [x, y] : pixels) {
-        const auto story = explain_pixel(renderer, *job.prepared, job.light, job.camera, job.settings, {job.width, job.height}, x, y,
-                                         job.timed_execution());
-        if (!story) return tl::unexpected(story.error());
-        list.push_back(story_json(*story, name));
-        stories.text += (stories.text.empty() ? "" : "\n") + story_text(*story, name);
+        auto told = explain_pixel(renderer, *job.prepared, job.light, job.camera, job.settings, {job.width, job.height}, x, y,
+                                  job.timed_execution());
+        if (!told) return tl::unexpected(told.error());
+        const PixelStory story = in_file(std::move(*told), job.source.placement);
+        list.push_back(story_json(story, name));
+        stories.text += (stories.text.empty() ? "" : "\n") + story_text(story, name);
     }
     stories.report["scene"] = job.source.name;
     stories.report["size"] = {job.width, job.height};

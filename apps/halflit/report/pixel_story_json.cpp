@@ -12,6 +12,11 @@
 namespace halflit::cli {
 namespace {
 
+void move_out(SurfaceOnRay& hit, const Placement& placement) {
+    hit.position = placement.out(hit.position);
+    hit.distance /= placement.scale;
+}
+
 Json place_json(Vec3d v) { return {v.x, v.y, v.z}; }
 
 Json hit_json(const SurfaceOnRay& hit, const NameOfInstance& name) {
@@ -92,6 +97,21 @@ Json share_json(const LightShare& share, const NameOfInstance& name) {
 }
 
 }  // namespace
+
+PixelStory in_file(PixelStory story, const Placement& placement) {
+    for (std::vector<SurfaceOnRay>* hits : {&story.layers, &story.behind})
+        for (SurfaceOnRay& hit : *hits) move_out(hit, placement);
+    for (LightShare& share : story.shares) {
+        share.distance /= placement.scale;
+        if (share.hidden_by) move_out(*share.hidden_by, placement);
+    }
+    if (story.shows != PixelShows::surface) return story;
+    story.position = placement.out(story.position);
+    story.normal = turned_back(story.normal, placement.up);
+    for (Vec3d& corner : story.corners) corner = placement.out(corner);
+    story.position_error /= placement.scale, story.depth /= placement.scale;
+    return story;
+}
 
 Json story_json(const PixelStory& story, const NameOfInstance& name) {
     Json lights = Json::array();

@@ -7,6 +7,7 @@
 #include "raster/frame_plan.hpp"
 #include "raster/scene/mesh_topology.hpp"
 #include "sh/time_limit.hpp"
+#include "sh/vec3d.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,14 @@ namespace halflit::cli {
 namespace {
 
 Json vector_json(Vec3f v) { return {json_number(v.x), json_number(v.y), json_number(v.z)}; }
+
+/// In the file's coordinates. Quarter turns may exchange the ends of an axis.
+Json bounds_json(const Bounds& drawn, const Placement& placement) {
+    if (drawn.empty) return nullptr;
+    Bounds bounds;
+    for (const Vec3f corner : {drawn.min, drawn.max}) bounds.add(to_float(placement.out(to_double(corner))));
+    return {{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
+}
 
 Json names_json(const std::vector<std::string>& names) {
     Json list = Json::array();
@@ -81,13 +90,16 @@ Json counts_json(const Scene& scene, const Lighting& light) {
             {"points_drawn", points}};
 }
 
-Json lights_json(const Lighting& drawn) {
+/// Coordinates and lengths are the file's; so is the colour of a light at distance 1.
+Json lights_json(const Lighting& drawn, const Placement& placement) {
     Json lights = Json::array();
     for (const Light& light : drawn.all_lights()) {
-        Json one{{"type", kind_of(light.type).name}, {"color", vector_json(light.color_linear)}};
-        if (kind_of(light.type).placed) one["position"] = vector_json(light.position_ws);
-        if (kind_of(light.type).aimed) one["direction"] = vector_json(light.direction_ws);
-        if (light.range > 0) one["range"] = json_number(light.range);
+        const bool placed = kind_of(light.type).placed;
+        const double unit = 1.0 / placement.scale, dimmer = placed ? unit * unit : 1.0;
+        Json one{{"type", kind_of(light.type).name}, {"color", vector_json(to_float(to_double(light.color_linear) * dimmer))}};
+        if (placed) one["position"] = vector_json(to_float(placement.out(to_double(light.position_ws))));
+        if (kind_of(light.type).aimed) one["direction"] = vector_json(to_float(turned_back(to_double(light.direction_ws), placement.up)));
+        if (light.range > 0) one["range"] = json_number(static_cast<float>(light.range * unit));
         lights.push_back(std::move(one));
     }
     return lights;
@@ -192,8 +204,7 @@ Result<std::string> describe_scene(const RenderJob& job, bool json, bool measure
     description["scene"] = job.source.name;
     if (job.source.file) description["file"] = file_json(*job.source.file);
     description["drawn"] = counts_json(scene, job.light);
-    const Bounds& bounds = job.prepared->bounds();
-    description["bounds"] = bounds.empty ? Json(nullptr) : Json{{"min", vector_json(bounds.min)}, {"max", vector_json(bounds.max)}};
+    description["bounds"] = bounds_json(job.prepared->bounds(), job.source.placement);
     auto measures = measures_json(job);
     if (!measures) return tl::unexpected(measures.error());
     if (!json && measures->is_object()) measures->erase("body_list");  // a dozen lines for each body
@@ -214,7 +225,7 @@ Result<std::string> describe_scene(const RenderJob& job, bool json, bool measure
     description["size"] = {job.width, job.height};
     description["exposure"] = json_number(job.settings.exposure);
     description["tone_curve"] = tone_curve_name(job.settings.tone_curve);
-    description["lights"] = lights_json(job.light);
+    description["lights"] = lights_json(job.light, job.source.placement);
     const Ambient& ambient = job.light.ambient;
     description["ambient"] = {{"sky", vector_json(ambient.sky_linear)}, {"ground", vector_json(ambient.ground_linear)}};
     const auto plan = plan_json(job);

@@ -185,11 +185,6 @@ def checked_matrices(array: Array, name: str) -> Array:
     return array
 
 
-def columns_of(array: Array) -> Array:
-    """16 float32, column after column, of a 4 x 4 array."""
-    return np.ascontiguousarray(array.T, dtype=np.float32)
-
-
 def rgba8(value: Any) -> Array:
     """A texture's pixels: uint8 (height, width, 4), whose pixels have no gaps; rows may have. Grey and RGB are filled up."""
     if hasattr(value, "convert") and hasattr(value, "getbands"):  # a picture of PIL

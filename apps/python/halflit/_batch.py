@@ -69,8 +69,8 @@ class _MeshDrawer:
     """A scene that has one mesh after another. Each is set up as render() does, so that no picture depends on the mesh before. The renderer
     keeps what does not depend on the mesh."""
 
-    def __init__(self, size: Tuple[int, int], material: Any, options: Dict[str, Any]) -> None:
-        self.scene, self.size, self.material, self.options = Scene(), size, material, options
+    def __init__(self, size: Tuple[int, int], material: Any, up: Any, options: Dict[str, Any]) -> None:
+        self.scene, self.size, self.material, self.options = Scene(up), size, material, options
         self.plain: Any = None  # whether the last mesh had the plain material, lit (False) or unlit
         self.is_placed = False  # by a matrix of its own
 
@@ -117,23 +117,25 @@ def _arguments(mesh: Any, index: int) -> Dict[str, Any]:
     return dict(mesh)
 
 
-def draw_meshes(meshes: Iterable[Any], size: Any, material: Any, options: Dict[str, Any]) -> Iterator[Picture]:
+def draw_meshes(meshes: Iterable[Any], size: Any, material: Any, up: Any, options: Dict[str, Any]) -> Iterator[Picture]:
     """The pictures of halflit.render_meshes(), in order."""
     check_names(options, [name for name in KNOWN if name not in ("camera", "setup", "out")], "render_meshes")
     threads = whole(options.get("threads") or 0, "threads", 0, 4096)
     if threads == 0:
         threads = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return _drawn_meshes(meshes, checked_size(size), threads, material, {**options, "threads": 1})
+    return _drawn_meshes(meshes, checked_size(size), threads, material, up, {**options, "threads": 1})
 
 
-def _drawn_meshes(meshes: Iterable[Any], size: Any, threads: int, material: Any, options: Dict[str, Any]) -> Iterator[Picture]:
+def _drawn_meshes(
+    meshes: Iterable[Any], size: Any, threads: int, material: Any, up: Any, options: Dict[str, Any]
+) -> Iterator[Picture]:
     own, stopped = threading.local(), threading.Event()
 
     def draw(mesh: Any, index: int) -> Picture:
         if stopped.is_set():
             raise CancelledError("a picture before was stopped")
         if not hasattr(own, "drawer"):
-            own.drawer = _MeshDrawer(size, material, options)
+            own.drawer = _MeshDrawer(size, material, up, options)
         try:
             picture: Picture = own.drawer.draw(mesh, index)
         except CancelledError:  # by Ctrl-C, whose exception the main thread may not have seen yet

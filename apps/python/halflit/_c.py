@@ -59,10 +59,10 @@ class Struct(ctypes.Structure):
     _kinds: Dict[Any, Any] = {}  # member -> ctypes type
 
     def __setattr__(self, name: str, value: Any) -> None:
-        self.put(name, value, name)
+        self.put(name, int(value) if isinstance(value, bool) else value, name)
 
     def put(self, member: str, value: Any, name: str) -> None:
-        """Sets a member for which the caller has another name."""
+        """Sets a member to what a caller gives, who may have another name for it; True is no number."""
         super().__setattr__(member, converted(self._kinds.get(member), value, name))
 
 
@@ -188,13 +188,14 @@ def function(name: str) -> Any:
 
 
 #: Functions that are given the path of a file -> its place among the arguments.
-_PATHS = {"scene_load": 0, "scene_load_environment": 1, "write_image": 0}
+_PATHS = {"scene_load": 0, "scene_add_file": 1, "scene_load_environment": 1, "write_image": 0}
 
 
 #: Functions that may take seconds, which Ctrl-C ends. Frames are told by halflit_execution.
 _LONG = frozenset((
     "scene_load", "scene_load_memory", "scene_load_environment", "scene_set_environment", "scene_add_mesh", "scene_set_mesh", "scene_set_vertices",
-    "scene_set_material", "scene_pose", "scene_get_bounds", "camera_frame", "camera_views", "choose_picture",
+    "scene_set_material", "scene_pose", "scene_get_box", "scene_add_file", "scene_add_file_memory", "camera_frame", "camera_views",
+    "choose_picture",
 ))  # fmt: skip
 _is_for_main: Any = None
 

@@ -3,14 +3,14 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 from . import _c
 from ._errors import UsageError
 from ._lazy import np
 from ._members import CameraMembers
 from ._record import Record
-from ._types import Array, Point, Unpack
+from ._types import Array, Point, Unpack, Up, ViewOf
 from ._values import finite, real, reals, shown, up_axis
 
 
@@ -29,8 +29,8 @@ class Camera(Record):
         aspect: perspective: width / height that the view is made for; 0: that of the picture (0)
         half_height: orthographic: half the view's height, world units (1)
         half_width: orthographic: half its width; 0: from the picture's aspect (0)
-        near_z: above 0 for perspective, world units (0.1)
-        far_z: above near_z; 0: no limit (perspective alone) (0)
+        near_z: what is nearer is not drawn, world units; perspective: 0: chosen by the scene, for each frame (0)
+        far_z: what is farther is not drawn; 0: no limit (0)
         sides: left, right, bottom, top of the picture: tangents of the angles from the axis, or (orthographic) distances from it, in
             place of fov_y_rad, aspect, half_height and half_width, whatever the picture's aspect; None: none (None)
     """
@@ -71,14 +71,13 @@ class Camera(Record):
         if value is not None and not (sides[0] < sides[1] and sides[2] < sides[3]):
             raise UsageError(f"sides: expected left below right and bottom below top, found {shown(value)}")
         self._c.sides[:] = sides
-        object.__setattr__(self, "_drawn", None)
 
     @property
     def matrix(self) -> Array:
         """world_from_camera, float64 (4, 4): the translation is matrix[:3, 3]."""
-        if "matrix" in self._exact:
-            return np.array(self._exact["matrix"])
-        return np.array(self._c.world_from_camera, dtype=np.float64).reshape(4, 4).T.copy()
+        matrix = np.array(self._c.world_from_camera, dtype=np.float64).reshape(4, 4).T.copy()
+        matrix[:3, 3] += self._c.place_rest
+        return matrix
 
     @matrix.setter
     def matrix(self, value: Any) -> None:
@@ -97,8 +96,7 @@ class Camera(Record):
 
     def _place(self, matrix: Array) -> None:
         self._c.world_from_camera[:] = matrix.T.ravel().tolist()
-        self._exact["matrix"] = matrix.tolist()
-        object.__setattr__(self, "_drawn", None)
+        self._c.place_rest[:] = [x - y for x, y in zip(matrix[:3, 3].tolist(), self._c.world_from_camera[12:15])]
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in ("matrix", "sides"):
@@ -111,9 +109,13 @@ class Camera(Record):
         return {**super().to_dict(), "matrix": self.matrix.tolist()}
 
     @classmethod
-    def look_at(cls, eye: Point, target: Point, up: Point = (0, 1, 0), **members: Unpack[CameraMembers]) -> Camera:
-        """A camera at `eye` that looks at `target`, with `up` upwards in the picture; points in world units."""
+    def look_at(cls, eye: Point, target: Point, up: Union[Point, Up] = "y", **members: Unpack[CameraMembers]) -> Camera:
+        """A camera at `eye` that looks at `target`, with `up` upwards in the picture: a direction, or "x", "y", "z", "-x", "-y" or "-z".
+        Points in world units."""
         camera = cls(**members)
+        if isinstance(up, str):
+            axis = up_axis(up) - 1
+            up = [(1.0 - 2 * (axis // 3)) * (i == axis % 3) for i in range(3)]
         points = [np.array(reals(value, 3, name)) for value, name in ((eye, "eye"), (target, "target"), (up, "up"))]
         ahead = points[1] - points[0]
         if not np.isfinite(points).all() or not ahead.any() or not points[2].any():
@@ -129,7 +131,7 @@ class Camera(Record):
 
     @classmethod
     def orbit(
-        cls, theta: float, phi: float, radius: float, target: Point = (0, 0, 0), up: str = "y", **members: Unpack[CameraMembers]
+        cls, theta: float, phi: float, radius: float, target: Point = (0, 0, 0), up: Up = "y", **members: Unpack[CameraMembers]
     ) -> Camera:
         """A camera that looks at `target` from a distance, by the angles of <model-viewer>'s camera-orbit.
 
@@ -147,7 +149,7 @@ class Camera(Record):
         return camera
 
     @classmethod
-    def view(cls, scene: Any, view: Any = "iso", size: Any = (1280, 720), **options: Any) -> Camera:
+    def view(cls, scene: Any, view: ViewOf = "iso", size: Any = (1280, 720), **options: Any) -> Camera:
         """The camera of scene.render(size, view=view): of the whole scene from a side, at the distance and scale that shows all sides.
 
         view: "front", "back", "left", "right", "top", "bottom", "iso", or (azimuth, elevation) in degrees. size: (width, height) of the
@@ -156,13 +158,12 @@ class Camera(Record):
         from ._options import check_names
         from ._scene_base import SceneBase
         from ._setup import checked_size
-        from ._views import drawn_views
+        from ._views import views_of
 
         if not isinstance(scene, SceneBase):
             raise UsageError(f"scene: expected a Scene, found {shown(scene)}")
         check_names(options, ("zoom", "fov", "orthographic", "fit"), "Camera.view")
-        camera: Camera = scene._world.out(drawn_views(scene, [view], checked_size(size), options)[0])
-        return camera
+        return views_of(scene, [view], checked_size(size), options)[0]
 
     @classmethod
     def from_intrinsics(cls, K: Any, size: Any, R: Any, t: Any, first_pixel: float = 0, **members: Unpack[CameraMembers]) -> Camera:
@@ -236,24 +237,12 @@ class Camera(Record):
         """Another camera that is equal."""
         return self._copied()
 
-    def _moved(self, move: Callable[..., Any], scale: float) -> Camera:
-        """The camera in a world whose points are moved and whose lengths are multiplied so."""
-        made, matrix = self._copied(), self.matrix
-        matrix[:3, 3] = move(matrix[:3, 3])
-        made._place(matrix)
-        for name in ("half_height", "half_width", "near_z", "far_z"):
-            setattr(made._c, name, getattr(made._c, name) * scale)
-        if self.orthographic and self.sides:
-            left, right, bottom, top = self.sides
-            made.sides = left * scale, right * scale, bottom * scale, top * scale
-        return made
-
     def _check(self) -> None:
         """Refuses distances that contradict each other; each alone may be set first."""
         near_z, far_z = self.near_z, self.far_z
-        if not self.orthographic and near_z <= 0:
-            raise UsageError(f"near_z: expected a distance above 0, found {near_z}")
-        if (self.orthographic or far_z != 0) and far_z <= near_z:
+        if not self.orthographic and near_z < 0:
+            raise UsageError(f"near_z: expected a distance from 0 on, found {near_z}")
+        if far_z != 0 and far_z <= near_z:
             raise UsageError(f"far_z: expected a distance above near_z, which is {near_z}, found {far_z}")
 
     def _shape(self) -> float:

@@ -47,10 +47,11 @@ STRUCTS = {
 """,
     "halflit_instance": """
         size_t size; int32_t mesh; int32_t material; int32_t visible; int32_t node; float color[4]; float world_from_object[16];
+        double place_rest[3];
 """,
     "halflit_camera": """
         size_t size; const char* name; float world_from_camera[16]; int32_t orthographic; float fov_y_rad; float aspect; float
-        half_height, half_width; float near_z; float far_z; float sides[4]; int32_t reserved;
+        half_height, half_width; float near_z; float far_z; float sides[4]; int32_t reserved; double place_rest[3];
 """,
     "halflit_view": """
         size_t size; double margin_x, margin_y; float azimuth_deg; float elevation_deg; float zoom; float fov_y_deg; int32_t
@@ -58,7 +59,7 @@ STRUCTS = {
 """,
     "halflit_light": """
         size_t size; int32_t type; float color[3]; float position[3]; float direction[3]; float range; float source_radius; float
-        inner_cone_rad, outer_cone_rad; float cone_power; float shadow_radius;
+        inner_cone_rad, outer_cone_rad; float cone_power; float shadow_radius; double position_rest[3];
 """,
     "halflit_environment_options": """
         size_t size; double rotate_rad; int32_t extract_suns; int32_t keep_image; int32_t calibrated; int32_t reserved;
@@ -191,8 +192,12 @@ int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 int32_t halflit_scene_create(halflit_scene** scene);
 int32_t halflit_scene_load(const char* path, const halflit_load_options* options, halflit_scene** scene);
 int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir, const halflit_load_options* options, halflit_scene** scene);
+int32_t halflit_scene_add_file(halflit_scene* scene, const char* path, const halflit_load_options* options, const double* world_from_file, int32_t* first, int32_t* count);
+int32_t halflit_scene_add_file_memory(halflit_scene* scene, const void* bytes, size_t byte_count, const char* name, const char* base_dir, const halflit_load_options* options, const double* world_from_file, int32_t* first, int32_t* count);
 int32_t halflit_scene_create_demo(halflit_scene** scene);
 int32_t halflit_scene_set_up(halflit_scene* scene, int32_t up);
+int32_t halflit_scene_save(const halflit_scene* scene, halflit_write write, void* user);
+int32_t halflit_scene_restore(halflit_scene* scene, const void* bytes, size_t count);
 void halflit_scene_destroy(halflit_scene* scene);
 int32_t halflit_scene_get_counts(const halflit_scene* scene, halflit_counts* counts);
 int32_t halflit_scene_get_warning(const halflit_scene* scene, int32_t index, const char** text);
@@ -203,6 +208,7 @@ int32_t halflit_scene_get_name(const halflit_scene* scene, int32_t part, int32_t
 int32_t halflit_scene_set_name(halflit_scene* scene, int32_t part, int32_t index, const char* name);
 int32_t halflit_scene_get_node(const halflit_scene* scene, int32_t index, halflit_node* node);
 int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
+int32_t halflit_scene_get_box(const halflit_scene* scene, double min[3], double max[3]);
 int32_t halflit_scene_add_texture(halflit_scene* scene, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes, int32_t color, int32_t* index);
 int32_t halflit_scene_set_texture(halflit_scene* scene, int32_t index, const uint8_t* rgba8, int32_t width, int32_t height, size_t row_bytes, int32_t color);
 int32_t halflit_scene_remove_texture(halflit_scene* scene, int32_t index);
@@ -219,10 +225,12 @@ int32_t halflit_scene_remove_mesh(halflit_scene* scene, int32_t index);
 int32_t halflit_instance_init(halflit_instance* instance, size_t size);
 int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t mesh, const float world_from_object[16], int32_t* index);
 int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object, int32_t* first);
+int32_t halflit_scene_add_instances_double(halflit_scene* scene, int32_t mesh, int32_t count, const double* world_from_object, int32_t* first);
 int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, halflit_instance* instance);
 int32_t halflit_scene_set_instance(halflit_scene* scene, int32_t index, const halflit_instance* instance);
 int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t index, const float world_from_object[16]);
 int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count, const float* world_from_object);
+int32_t halflit_scene_place_instances_double(halflit_scene* scene, const int32_t* indices, int32_t count, const double* world_from_object);
 int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index);
 int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* instance);
 int32_t halflit_camera_init(halflit_camera* camera, size_t size);

@@ -12,10 +12,10 @@ from ._errors import UsageError, warn
 from ._execution import Execution
 from ._options import KNOWN, VIEW, apply_settings, check_names
 from ._picture import Picture
-from ._setup import Setup, checked_size, choose, drawn_camera, exposure_of, given_camera, kept
+from ._setup import Setup, checked_size, choose, exposure_of, given_camera, kept
 from ._target import Target
 from ._values import real, shown
-from ._views import USUAL_SIZE, drawn_views
+from ._views import USUAL_SIZE, views_of
 
 
 _QUALITIES = {"fast": (2, 99), "draft": (8, 95)}
@@ -78,7 +78,7 @@ def view_frames(scene: Any, views: List[Any], size: Any, light: str, options: Di
         raise UsageError("views: expected one or more")
     size = USUAL_SIZE if size is None else checked_size(size)
     with scene._lock:
-        cameras = [scene._world.out(camera) for camera in drawn_views(scene, views, size, lens)]
+        cameras = views_of(scene, views, size, lens)
     return draw_batch(scene, cameras, size, light, options)
 
 
@@ -94,11 +94,10 @@ def draw_setup(scene: Any, setup: Setup, options: Dict[Any, Any]) -> Picture:
     settings = settings_of(scene, setup, options)
     target = Target(setup.size, settings, options)
     report = frame(scene, setup, settings, target, Execution(options, scene._lock))
-    scene._world.planes_out(target.planes)
     picture = target.picture
     picture.camera, picture.report = setup.camera, report
     picture.aovs = target.derive(scene, picture.camera, settings.region)
-    picture._settings = settings, scene._world.scale
+    picture._settings = settings
     for line in report["warnings"]:
         if line not in scene._told:  # each once
             scene._told.add(line)
@@ -126,9 +125,9 @@ def measure(scene: Any, size: Any, quality: Any, known: Any, options: Dict[Any, 
                 setattr(measured, name, known["settings"][name])
         except (KeyError, TypeError) as error:
             raise UsageError("known: expected what measure() returned") from error
-    camera, execution = drawn_camera(scene._world, setup), Execution(options, scene._lock)
+    execution = Execution(options, scene._lock)
     with execution.calls():
-        structs = map(ctypes.byref, (camera._c, settings))
+        structs = map(ctypes.byref, (setup._camera._c, settings))
         _c.call("measure", renderer_of(scene, execution), scene._handle, setup._lighting, *structs, *setup.size, ctypes.byref(measured))
     found: Dict[str, Any] = {name: getattr(measured, name) for name in ("percent", "probes", "outside")}
     found["asked"] = (measured.codes, measured.asked_percent)
@@ -140,8 +139,6 @@ def settings_of(scene: Any, setup: Setup, options: Dict[Any, Any]) -> Any:
     """The halflit_settings: those of the setup, and what the keywords say."""
     settings = type(setup._settings).from_buffer_copy(setup._settings)
     apply_settings(settings, options)
-    if options.get("shadow_fade") is not None:  # a length of the file's world
-        settings.shadow_fade = real(options["shadow_fade"], "shadow_fade") * scene._world.scale
     exposure, compensation_ev = exposure_of(options)
     if options.get("setup") is not None:
         settings.exposure = (settings.exposure if exposure is None else exposure) * 2.0**compensation_ev
@@ -150,9 +147,9 @@ def settings_of(scene: Any, setup: Setup, options: Dict[Any, Any]) -> Any:
 
 def frame(scene: Any, setup: Setup, settings: Any, target: Target, execution: Execution) -> Dict[str, Any]:
     """Draws into the target, and returns the report."""
-    report, camera = _c.make("report", False), drawn_camera(scene._world, setup)
+    report = _c.make("report", False)
     renderer = renderer_of(scene, execution)
-    structs = (camera._c, settings, target.struct, report)
+    structs = (setup._camera._c, settings, target.struct, report)
     try:
         with execution.calls():
             _c.call("render", renderer, scene._handle, setup._lighting, *map(ctypes.byref, structs))

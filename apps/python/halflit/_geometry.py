@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Dict, List, Optional, Tuple, Union, cast
+from typing import Any, Dict, List, Literal, Optional, Tuple, Union, cast
 
 from . import _c
 from ._errors import UsageError
@@ -13,7 +13,7 @@ from ._material import Material
 from ._members import MaterialMembers
 from ._record import chosen
 from ._scene_base import SceneBase
-from ._types import Array, Unpack
+from ._types import Array, Encoding, Part, TextureEncoding, Topology, Unpack
 from ._values import shown, truth, whole
 
 _COLORS = {"srgb": "SRGB", "linear": "LINEAR", "srgb_by_alpha": "SRGB_BY_ALPHA", "normal": "NORMAL"}
@@ -42,7 +42,7 @@ class Geometry(SceneBase):
 
     # ---- textures and materials -----------------------------------------------------------------------------------------
 
-    def add_texture(self, pixels: Any, color: str = "srgb") -> int:
+    def add_texture(self, pixels: Any, color: TextureEncoding = "srgb") -> int:
         """Adds a texture of uint8 (height, width) or (height, width, 1 to 4 channels), row 0 on top, or of a PIL picture, and returns its
         index. One channel is grey, two are grey and alpha.
 
@@ -52,7 +52,7 @@ class Geometry(SceneBase):
         self._texture("scene_add_texture", (), pixels, color, (ctypes.byref(index),))
         return index.value
 
-    def set_texture(self, index: int, pixels: Any, color: str = "srgb") -> None:
+    def set_texture(self, index: int, pixels: Any, color: TextureEncoding = "srgb") -> None:
         """Replaces a texture; the size may differ."""
         self._texture("scene_set_texture", (index,), pixels, color, ())
 
@@ -101,10 +101,10 @@ class Geometry(SceneBase):
         uv: Any = None,
         uv1: Any = None,
         colors: Any = None,
-        colors_space: Optional[str] = None,
+        colors_space: Optional[Encoding] = None,
         tangents: Any = None,
         material: MaterialOf = None,
-        topology: str = "triangles",
+        topology: Topology = "triangles",
         name: Optional[str] = None,
         matrix: Any = None,
         place: bool = True,
@@ -137,8 +137,8 @@ class Geometry(SceneBase):
             return MeshIndex(index.value, self._add_instance(index.value, at) if place else None)
 
     def set_mesh(self, index: int, vertices: Any, faces: Any = None, *, normals: Any = None, uv: Any = None, uv1: Any = None,
-                 colors: Any = None, colors_space: Optional[str] = None, tangents: Any = None,
-                 material: MaterialOf = None, topology: str = "triangles", name: Optional[str] = None) -> None:  # fmt: skip
+                 colors: Any = None, colors_space: Optional[Encoding] = None, tangents: Any = None,
+                 material: MaterialOf = None, topology: Topology = "triangles", name: Optional[str] = None) -> None:  # fmt: skip
         """Replaces a mesh in all its instances; arguments as in add_mesh(), but material None: the mesh keeps its material, unless
         it was given none.
 
@@ -235,21 +235,29 @@ class Geometry(SceneBase):
             return index
 
     def _add_instance(self, mesh: int, place: Array) -> int:
-        index = ctypes.c_int32()
-        self._change("scene_add_instance", mesh, place.ctypes.data, ctypes.byref(index))
+        with np.errstate(over="ignore"):  # the library refuses what is infinite then
+            index, coarse = ctypes.c_int32(), place.astype(np.float32)
+        self._change("scene_add_instance", mesh, coarse.ctypes.data, ctypes.byref(index))
+        if (coarse != place).any():
+            self._place(index.value, place)
         return index.value
+
+    def _place(self, index: int, place: Array) -> None:
+        which = ctypes.c_int32(whole(index, "index", -(2**31), 2**31 - 1))
+        self._change("scene_place_instances_double", ctypes.byref(which), 1, place.ctypes.data)
 
     def add_instances(self, mesh: int, matrices: Any) -> range:
         """Places a mesh by many matrices, (n, 4, 4), and returns the instances' indices."""
         places, first = self._placements(matrices), ctypes.c_int32()
-        self._change("scene_add_instances", mesh, len(places), places.ctypes.data, ctypes.byref(first))
+        self._change("scene_add_instances_double", mesh, len(places), places.ctypes.data, ctypes.byref(first))
         return range(first.value, first.value + len(places))
 
     def instance(self, index: int) -> Tuple[int, Array]:
         """Mesh and matrix, float64 (4, 4), of an instance."""
         found = self._instance(index)
-        columns = np.array(found.world_from_object, np.float64).reshape(4, 4)
-        return found.mesh, self._world.matrix_out(columns.T)
+        matrix = np.array(found.world_from_object, np.float64).reshape(4, 4).T.copy()
+        matrix[:3, 3] += found.place_rest
+        return found.mesh, matrix
 
     def look(self, index: int) -> Dict[str, Any]:
         """What else an instance has: color (linear RGBA), material (None: the mesh's), visible, name, node (None: it is of no file)."""
@@ -274,12 +282,13 @@ class Geometry(SceneBase):
         with self._lock:
             if all(given is None for given in (color, material, visible, mesh, name)):
                 if matrix is not None:
-                    place = self._placement(matrix)
-                    self._change("scene_place_instance", index, place.ctypes.data)
+                    self._place(index, self._placement(matrix))
                 return
             found = self._instance(index)
             if matrix is not None:
-                found.world_from_object = (ctypes.c_float * 16)(*self._placement(matrix).ravel().tolist())
+                place = self._placement(matrix).tolist()
+                found.world_from_object[:] = place
+                found.place_rest[:] = [x - y for x, y in zip(place[12:15], found.world_from_object[12:15])]
             if color is not None:
                 found.color = (ctypes.c_float * 4)(*color_of(color, "color", 4, most=math.inf))
             for member, value in (("material", material), ("mesh", mesh)):
@@ -297,7 +306,7 @@ class Geometry(SceneBase):
         which = None if indices is None else np.ascontiguousarray(indices, np.int32)
         if which is not None and which.shape != (len(places),):
             raise UsageError(f"indices: {which.shape}, expected one for each of {len(places)} matrices")
-        self._change("scene_place_instances", None if which is None else which.ctypes.data, len(places), places.ctypes.data)
+        self._change("scene_place_instances_double", None if which is None else which.ctypes.data, len(places), places.ctypes.data)
 
     def remove_instance(self, index: int) -> None:
         """Removes an instance; add_instance() may use its index again."""
@@ -305,7 +314,7 @@ class Geometry(SceneBase):
 
     # ---- names and nodes ------------------------------------------------------------------------------------------------
 
-    def name(self, part: str, index: int) -> str:
+    def name(self, part: Part, index: int) -> str:
         """Name of a "node", "instance", "mesh", "material" or "camera"; an instance without one has its node's, or else its mesh's."""
         text = ctypes.c_char_p()
         with self._lock:  # the text is the scene's
@@ -314,7 +323,7 @@ class Geometry(SceneBase):
                 return self.name("mesh", self._instance(index).mesh)
             return _c.text_of(text.value)
 
-    def set_name(self, part: str, index: int, name: str) -> None:
+    def set_name(self, part: Literal["instance", "mesh", "material"], index: int, name: str) -> None:
         """Names an "instance", a "mesh" or a "material"."""
         self._change("scene_set_name", chosen(part, "PART", "part"), index, _c.required(name, "name"))
 
@@ -340,15 +349,14 @@ class Geometry(SceneBase):
         return index.value
 
     def _placement(self, matrix: Any) -> Array:
-        """16 float32 that place a mesh in the world that is drawn, by a matrix of the file's world."""
+        """16 float64, column after column."""
         from . import _arrays
 
         given = np.eye(4) if matrix is None else _arrays.matrix(matrix)
-        return _arrays.columns_of(self._world.matrix_in(given))
+        return given.T.ravel()
 
     def _placements(self, matrices: Any) -> Array:
-        """The same of many matrices: float32 (n, 16)."""
+        """The same of many matrices: (n, 16)."""
         from . import _arrays
 
-        given = _arrays.matrices(matrices)
-        return np.ascontiguousarray(self._world.matrix_in(given).transpose(0, 2, 1), dtype=np.float32).reshape(-1, 16)
+        return np.ascontiguousarray(_arrays.matrices(matrices).transpose(0, 2, 1)).reshape(-1, 16)

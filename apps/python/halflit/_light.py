@@ -2,13 +2,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Iterable, Optional, cast
+from typing import Any, Iterable, Optional, cast
 
 from ._errors import UsageError
 from ._lazy import np  # noqa: F401  (in annotations)
 from ._members import LightKeywords
 from ._record import Record
-from ._types import Color, Point, Unpack
+from ._types import Color, LightType, Point, Unpack
 from ._values import reals, shown
 
 
@@ -44,7 +44,7 @@ class Light(Record):
         **dict.fromkeys(("range", "source_radius", "cone_power", "shadow_radius"), (0.0, math.inf)),
         **dict.fromkeys(("inner_cone_rad", "outer_cone_rad"), (0.0, math.pi)),
     }
-    type: str
+    type: LightType
     color: Color
     position: Point
     direction: Point
@@ -55,7 +55,7 @@ class Light(Record):
     cone_power: float
     shadow_radius: float
 
-    def __init__(self, type: str = "directional", **members: Unpack[LightKeywords]) -> None:
+    def __init__(self, type: LightType = "directional", **members: Unpack[LightKeywords]) -> None:
         super().__init__(type=type, **members)
         self._refuse_idle(members)
 
@@ -80,17 +80,3 @@ class Light(Record):
         if name == "direction" and not any(reals(value, 3, name)):
             raise UsageError(f"direction: expected a length above 0, found {shown(value)}")
         super().__setattr__(name, value)
-        if name == "position":
-            self._exact[name] = tuple(reals(value, 3, name))
-
-    def _moved(self, move: Callable[..., Any], scale: float) -> Light:
-        """The light in a world whose points are moved and whose lengths are multiplied so."""
-        made = self._copied()
-        if self.type == "directional":
-            return made
-        made.position = move(self.position)
-        made.color = [c * scale * scale for c in self._c.color]  # falls with the squared distance
-        made.range, made.source_radius, made.shadow_radius = (
-            value * scale for value in (self.range, self.source_radius, self.shadow_radius)
-        )
-        return made

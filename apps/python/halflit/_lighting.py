@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import math
 import os
-from typing import Any, Dict, Optional, Union
+from typing import Any, Optional, Union
 
 from . import _c
 from ._color import color
@@ -13,20 +13,20 @@ from ._lazy import np
 from ._light import Light
 from ._members import LightKeywords, LightMembers
 from ._scene_base import SceneBase
-from ._types import Color, Unpack
+from ._types import Color, LightType, Unpack
 from ._values import real, truth
 
 
 class Lighting(SceneBase):
     """The methods of a Scene about light."""
 
-    def add_light(self, light: Union[Light, LightMembers, str] = "directional", **members: Unpack[LightKeywords]) -> int:
+    def add_light(self, light: Union[Light, LightMembers, LightType] = "directional", **members: Unpack[LightKeywords]) -> int:
         """Adds a Light, or one of this type, with these members: add_light("point", position=(0, 2, 0), color=(4, 4, 4))."""
         index = ctypes.c_int32()
         made = Light(light, **members) if isinstance(light, str) else Light._from(light, **members)
         made._refuse_idle(members)
         made._check()
-        self._change("scene_add_light", ctypes.byref(self._world.into(made)._c), ctypes.byref(index))
+        self._change("scene_add_light", ctypes.byref(made._c), ctypes.byref(index))
         self._own_lights = True
         return index.value
 
@@ -34,13 +34,13 @@ class Lighting(SceneBase):
         """A light of the scene. Change a member, then call set_light()."""
         light = Light()
         self._call("scene_get_light", index, ctypes.byref(light._c))
-        return self._world.out(light)
+        return light
 
     def set_light(self, index: int, light: Union[Light, LightMembers]) -> None:
         """Replaces a light."""
         made = Light._from(light)
         made._check()
-        self._change("scene_set_light", index, ctypes.byref(self._world.into(made)._c))
+        self._change("scene_set_light", index, ctypes.byref(made._c))
 
     def remove_light(self, index: int) -> None:
         """Removes a light; add_light() may use its index again."""
@@ -54,8 +54,9 @@ class Lighting(SceneBase):
     def set_environment(self, image: Any, *, rotate: float = 0.0, extract_suns: bool = True, calibrated: bool = False) -> None:
         """Lights the scene by an image of the light from all directions, in the place of ambient light.
 
-        image: floats (height, width, 3), linear, row 0 straight up, the middle column along -z; a path (.hdr, .pfm, .exr); or "sky".
-        rotate: degrees about +y, counter-clockwise seen from above. calibrated: the array is made for exposure 1.
+        image: floats (height, width, 3), linear, row 0 straight up, the middle column along -z (+y where z is up); a path (.hdr, .pfm,
+        .exr); or "sky". rotate: degrees about the vertical, counter-clockwise seen from above. calibrated: the array is made for
+        exposure 1.
         """
         how = _c.make("environment_options")
         how.rotate_rad = real(rotate, "rotate") * (math.pi / 180)

@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Dict, Tuple, Union
+from typing import Any, Dict, Tuple, Union, cast
 
 from . import _c
 from ._lazy import np  # noqa: F401  (in annotations)
 from ._members import LobeMembers, MaterialMembers, TextureUseKeywords, TextureUseMembers
 from ._record import Record
-from ._types import Color, Unpack
+from ._types import AlphaMode, Color, Filter, LobeName, MipFilter, Unpack, Wrap
 from ._values import whole
 
 
@@ -35,7 +35,7 @@ class Lobe(Record):
         self.wrap, self.power, self.normalize = wrap, power, normalize
 
     @classmethod
-    def named(cls, name: str, wrap: float = 0.5) -> Lobe:
+    def named(cls, name: LobeName, wrap: float = 0.5) -> Lobe:
         """A lobe of the literature. wrap: 0 to 1, for those that take one."""
         lobe = cls()
         _c.call("lobe_by_name", _c.required(name, "lobe"), wrap, ctypes.byref(lobe._c))
@@ -44,7 +44,7 @@ class Lobe(Record):
     @classmethod
     def _from(cls, value: Any, name: str = "lobe", **members: Any) -> Any:
         if isinstance(value, str):
-            value = cls.named(value)
+            value = cls.named(cast(Any, value))
         elif isinstance(value, (tuple, list)) and len(value) == 2 and isinstance(value[0], str):
             value = cls.named(*value)
         return super()._from(value, name, **members)
@@ -69,11 +69,11 @@ class TextureUse(Record):
     _choices = {"wrap_u": "WRAP", "wrap_v": "WRAP", "mag_filter": "FILTER", "min_filter": "FILTER", "mip_filter": "MIP"}
     texture: int
     uv_set: int
-    wrap_u: str
-    wrap_v: str
-    mag_filter: str
-    min_filter: str
-    mip_filter: str
+    wrap_u: Wrap
+    wrap_v: Wrap
+    mag_filter: Filter
+    min_filter: Filter
+    mip_filter: MipFilter
     row_u: Tuple[float, float, float]
     row_v: Tuple[float, float, float]
 
@@ -91,7 +91,7 @@ class TextureUse(Record):
 
 
 #: What a lobe, or a texture of a material, may be given as.
-LobeOf = Union[Lobe, LobeMembers, str, Tuple[str, float]]
+LobeOf = Union[Lobe, LobeMembers, LobeName, Tuple[LobeName, float]]
 TextureOf = Union[TextureUse, TextureUseMembers, int, None]
 
 
@@ -232,11 +232,11 @@ class Material(Record):
     anisotropy_texture: Union[TextureUse, int]
     # Other members.
     name: str
-    alpha_mode: str
+    alpha_mode: AlphaMode
     double_sided: bool
     unlit: bool
     own_lobe: bool
-    lobe: Union[Lobe, str, Tuple[str, float]]
+    lobe: Union[Lobe, LobeName, Tuple[LobeName, float]]
     shadow_catcher: bool
 
     def __init__(self, **members: Unpack[MaterialMembers]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Optional, Tuple, TypedDict
 
-from ._types import Color, Point
+from ._types import AlphaMode, Color, Filter, LightType, MipFilter, Point, Wrap
 
 if TYPE_CHECKING:
     from ._material import LobeOf, TextureOf
@@ -22,11 +22,11 @@ class TextureUseKeywords(TypedDict, total=False):
     """See halflit.TextureUse."""
 
     uv_set: int
-    wrap_u: str
-    wrap_v: str
-    mag_filter: str
-    min_filter: str
-    mip_filter: str
+    wrap_u: Wrap
+    wrap_v: Wrap
+    mag_filter: Filter
+    min_filter: Filter
+    mip_filter: MipFilter
     row_u: Tuple[float, float, float]
     row_v: Tuple[float, float, float]
 
@@ -54,7 +54,7 @@ class LightKeywords(TypedDict, total=False):
 class LightMembers(LightKeywords, total=False):
     """The same with its type."""
 
-    type: str
+    type: LightType
 
 
 class CameraMembers(TypedDict, total=False):
@@ -117,7 +117,7 @@ class MaterialMembers(TypedDict, total=False):
     iridescence_thickness_texture: TextureOf
     anisotropy_texture: TextureOf
     name: str
-    alpha_mode: str
+    alpha_mode: AlphaMode
     double_sided: bool
     unlit: bool
     own_lobe: bool

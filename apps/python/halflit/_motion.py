@@ -11,7 +11,7 @@ from ._errors import UsageError
 from ._setup import given_camera
 from ._types import Array
 
-_NEEDED = {"id": "uint32", "triangle": "uint32", "barycentric": "float32"}
+_NEEDED = {"id": "int32", "triangle": "int32", "barycentric": "float32"}
 
 
 def motion(scene: Any, picture: Any, camera: Any, other: Any) -> Array:
@@ -25,7 +25,7 @@ def motion(scene: Any, picture: Any, camera: Any, other: Any) -> Array:
     planes = [np.ascontiguousarray(aovs[name], kind) for name, kind in _NEEDED.items()]
     height, width = planes[0].shape
     found = np.empty((height, width, 2), np.float32)
-    views = [of._world.into(given_camera(view)) for of, view in ((scene, drawn), (other, camera))]
+    views = [given_camera(view) for view in (drawn, camera)]
     first, second = (ctypes.byref(view._c) for view in views)
     pointers = [plane.ctypes.data for plane in planes]
     for one in (scene, other):

@@ -18,10 +18,10 @@ PLANES = {
     "vertex_normal": ("normal", 3, "float32"),  # the same without the normal map
     "albedo": ("albedo", 3, "float32"),  # base colour, linear
     "position": ("position", 3, "float32"),  # world space
-    "id": ("instance", 1, "uint32"),  # index of the instance plus 1; 0 where nothing is
-    "triangle": ("triangle", 1, "uint32"),  # number of the triangle in its mesh plus 1
+    "id": ("instance", 1, "int32"),  # index of the instance plus 1; 0 where nothing is
+    "triangle": ("triangle", 1, "int32"),  # number of the triangle in its mesh plus 1
     "coverage": ("coverage", 1, "float32"),  # share of the samples that a surface covers
-    "lights": ("lights", 1, "uint32"),  # lights that have the surface in their range and cone
+    "lights": ("lights", 1, "int32"),  # lights that have the surface in their range and cone
     "barycentric": ("barycentric", 2, "float32"),  # weights of the triangle's second and third corner
     "uv": ("uv", 2, "float32"),  # texture coordinates, set 0, before a texture's own transform
 }
@@ -82,7 +82,7 @@ _PARTS = {
 #: Keywords that have another place here.
 _ELSEWHERE = {
     **dict.fromkeys(("width", "height", "resolution"), "the picture's is size=(width, height)"),
-    "up": "it is one of Scene()",
+    "up": "it is one of Scene(), Scene.load() and halflit.render()",
 }
 KNOWN = frozenset((*VIEW, *PIXELS, *EXECUTION, *SETTINGS, "background", "edge_color", "lobe"))
 
@@ -114,7 +114,7 @@ def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
             member, kind = SETTINGS[name]
             if kind.isupper() and isinstance(value, str):
                 value = chosen(value, kind, name)
-            settings.put(member, truth(value, name) if kind == "bool" else value, name)
+            settings.put(member, int(truth(value, name)) if kind == "bool" else value, name)
     for whole, parts in _PARTS.items():
         if getattr(settings, whole) == 0:  # none, off
             for name in parts:
@@ -134,8 +134,8 @@ def set_background(settings: Any, value: Any) -> None:
     settings.background = (ctypes.c_float * 4)(*color(value, "background", 4, BRIGHTEST))
 
 
-def settings_dict(settings: Any, scale: float = 1.0) -> Dict[str, Any]:
-    """All settings by the names of halflit_settings. scale: of lengths in the world that is drawn."""
+def settings_dict(settings: Any) -> Dict[str, Any]:
+    """All settings by the names of halflit_settings."""
     values: Dict[str, Any] = {}
     kinds = dict(SETTINGS.values())
     for name, _ in settings._fields_:
@@ -150,5 +150,4 @@ def settings_dict(settings: Any, scale: float = 1.0) -> Dict[str, Any]:
             fields: Any = value._fields_
             value = tuple(getattr(value, field[0]) for field in fields)
         values[name] = tuple(value) if isinstance(value, ctypes.Array) else value
-    values["shadow_fade"] /= scale
     return values

@@ -56,7 +56,7 @@ class Picture(_Base):
     def settings(self) -> Dict[str, Any]:
         """All settings that decided its pixels, by the names of halflit_settings in halflit.h."""
         if not isinstance(self._settings, dict):
-            self._settings = settings_dict(*self._settings)
+            self._settings = settings_dict(self._settings)
         found: Dict[str, Any] = self._settings
         return found
 

@@ -1,13 +1,13 @@
 """The keywords of render() and setup() with their types, for help() and type checkers."""
 from __future__ import annotations
 
-from typing import Any, Callable, Sequence, Tuple, TypedDict, Union
+from typing import Any, Callable, Literal, Sequence, Tuple, TypedDict, Union
 
 from ._camera import Camera
 from ._lazy import np
 from ._material import LobeOf
 from ._setup import Setup
-from ._types import Array, Color
+from ._types import Aov, Array, Color, Isa, Studio, ViewOf
 
 
 class ViewOptions(TypedDict, total=False):
@@ -19,12 +19,12 @@ class ViewOptions(TypedDict, total=False):
     zoom: float
     fov: float
     orthographic: bool
-    view: Union[str, Tuple[float, float]]
+    view: ViewOf
     fit: float
     exposure: float
     ev: Union[float, str]
     ambient: Color
-    studio: str
+    studio: Studio
     studio_turn: float
 
 
@@ -61,7 +61,7 @@ class PictureOptions(ViewOptions, total=False):
         out: the array to draw into, (height, width, 4); rows may have gaps (a new one)
         aovs: names of AOVS, or "all" (none). Vertices are rounded to multiples of 1/256 pixel, so the picture's camera sees a
             "position" within 1/512 pixel, on each axis, of the pixel that has it
-        edge_color: of the lines of `edges`: "#rrggbb" or linear numbers (black)
+        edge_color: of the lines of `edges`: "#rrggbb" or linear numbers (black). Dark lines are light grey on surfaces that are as dark
         lobe: of materials without a lobe of their own (lambert)
 
     Settings:
@@ -125,40 +125,40 @@ class PictureOptions(ViewOptions, total=False):
     dtype: Any
     premultiplied: bool
     out: Array
-    aovs: Union[Sequence[str], str]
+    aovs: Union[Sequence[Aov], Aov, Literal["all"]]
     lobe: LobeOf
     # Settings: written by apps/c/members.py.
     max_error: float
     environment_tolerance: float
     shadow_memory_limit: int
     samples: int
-    tone_curve: str
+    tone_curve: Literal["none", "reinhard", "aces", "neutral"]
     point_size: float
     line_width: float
-    accuracy: str
-    texture_detail: str
+    accuracy: Literal["reference", "exact"]
+    texture_detail: Literal["full", "bilinear", "nearest"]
     anisotropy: int
-    specular: str
+    specular: Literal["none", "phong", "blinn", "ggx"]
     normalize_specular: bool
     normal_scale: float
-    shading_rate: str
+    shading_rate: Literal["flat", "gouraud", "pixel"]
     environment_bands: int
-    shadows: str
+    shadows: Literal["off", "hard", "soft_split"]
     shadow_size: int
     soft_shadow_maps: int
     shadow_fade: float
     sky_shadows: int
     shadow_terminator_offset: bool
     emission_scale: float
-    edges: str
-    hidden_edges: str
+    edges: Literal["none", "feature", "silhouette", "all"]
+    hidden_edges: Literal["none", "dashed"]
     edge_angle_deg: float
     edge_width: float
     max_layers: int
     contact_shadow: float
     # How it is computed.
     threads: int
-    isa: str
+    isa: Isa
     tile_size: int
     time_limit: float
     memory_limit: int

@@ -26,8 +26,6 @@ class Record:
     _colors: Dict[str, Optional[float]] = {}  # member -> largest number, see color(); None: light
     _ranges: Dict[str, Tuple[float, float]] = {}  # member -> least and largest number; all others have to be finite
     _nested: Dict[str, Type[Record]] = {}  # struct of a member -> its class
-    _exact: Dict[str, Any]  # members that float32 is too coarse for, far from the origin, as they were given
-    _drawn: Any = None  # (World, struct): what this is in the world that is drawn, until a member is set
 
     _c: Any  # the struct
 
@@ -38,7 +36,6 @@ class Record:
 
     def _begin(self, struct: Any) -> None:
         object.__setattr__(self, "_c", struct)
-        object.__setattr__(self, "_exact", {})
 
     @classmethod
     def _of(cls: Type[R], struct: Any) -> R:
@@ -66,28 +63,26 @@ class Record:
         other = type(self)._of(type(self._c).from_buffer_copy(self._c))
         if "name" in self._members():
             other._c.name = bytes(self._c.name or b"")
-        other._exact.update(self._exact)
-        object.__setattr__(other, "_drawn", self._drawn)
         return other
 
     @classmethod
     def _members(cls) -> List[Any]:
-        return [name for name, _ in _c.STRUCT["halflit_" + cls._kind]._fields_ if name not in ("size", "reserved")]
+        fields = _c.STRUCT["halflit_" + cls._kind]._fields_
+        return [name for name, _ in fields if name not in ("size", "reserved") and not name.endswith("_rest")]
 
     if not TYPE_CHECKING:  # which shall find misspelled members
 
         def __getattr__(self, name: str) -> Any:
             if name.startswith("_") or name not in self._members():
                 raise AttributeError(f"{type(self).__name__} has no member {name}")
-            if name in self._exact:
-                return self._exact[name]
             value = getattr(self._c, name)
             if name in self._choices:
                 return next((text for text, number in _c.choices(self._choices[name]).items() if number == value), value)
             if name in self._truths:
                 return bool(value)
             if isinstance(value, ctypes.Array):
-                return tuple(value)
+                rest = getattr(self._c, name + "_rest", None)
+                return tuple(value) if rest is None else tuple(map(sum, zip(value, rest)))
             if isinstance(value, ctypes.Structure):
                 return self._nested[type(value).__name__]._of(value)
             return _c.text_of(value) if name == "name" else value
@@ -96,7 +91,8 @@ class Record:
         if name in ("size", "reserved") or name not in self._members():
             raise UsageError(f"{type(self).__name__} has no member {name}, expected one of {', '.join(self._members())}")
         setattr(self._c, name, self._converted(name, value))
-        object.__setattr__(self, "_drawn", None)
+        if hasattr(self._c, name + "_rest"):  # of the doubles that were given
+            getattr(self._c, name + "_rest")[:] = [x - y for x, y in zip(reals(value, 3, name), getattr(self._c, name))]
 
     def _converted(self, name: str, value: Any) -> Any:
         kind: Any = self._c._kinds[name]
@@ -143,8 +139,7 @@ class Record:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Record) or type(self) is not type(other):
             return False
-        exact = all(self._exact[name] == other._exact[name] for name in self._exact.keys() & other._exact.keys())
-        return exact and self._of(self._c).to_dict() == self._of(other._c).to_dict()  # one that a scene gave has float32 alone
+        return self.to_dict() == other.to_dict()
 
     __hash__ = None  # type: ignore[assignment]
 

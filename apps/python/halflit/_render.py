@@ -12,7 +12,7 @@ from ._light import Light
 from ._members import LightMembers
 from ._picture_options import PictureOptions
 from ._scene import Scene
-from ._types import Size, Unpack
+from ._types import Size, Unpack, Up
 from ._values import listed, real, shown, truth
 
 
@@ -30,6 +30,7 @@ def render(
     time: float = 0.0,
     scene: Union[str, int, None] = None,
     variant: Optional[str] = None,
+    up: Optional[Up] = None,
     **options: Unpack[PictureOptions],
 ) -> pictures.Picture:
     """Draws a picture and returns it: a numpy array, uint8 of shape (height, width, 4), which notebooks show.
@@ -40,6 +41,7 @@ def render(
     A file without any keyword gives the pixels that `halflit render FILE --size WxH` gives. Keywords for all but a Scene:
     lights: Light objects, or dicts of their members; environment: an image or a path as in Scene.set_environment(), "sky", "studio" or
     "none"; environment_rotate: degrees; scene_lights: False leaves out those of the file; ground: a ground that shows shadows alone.
+    up: the axis that points up, "z" and so on; by default z for STL and 3MF, and for what trimesh has read from them, and y for the rest.
     For files and their bytes: animation, time (seconds), scene, variant, as in Scene.load(); load: other keywords of it.
     Further keywords are those of Scene.render(): camera, azimuth, elevation, zoom, samples, background, exposure, aovs, max_error,
     threads and so on (halflit.PictureOptions).
@@ -47,12 +49,12 @@ def render(
     of_file = {"animation": animation, "time": real(time, "time") or None, "scene": scene, "variant": variant, "load": load}
     scene_lights, ground = truth(scene_lights, "scene_lights"), truth(ground, "ground")
     if isinstance(source, Scene):
-        others = {"environment": environment, "environment_rotate": environment_rotate or None, "lights": lights or None}
+        others = {"up": up, "environment": environment, "environment_rotate": environment_rotate or None, "lights": lights or None}
         others.update(ground=ground or None, scene_lights=None if scene_lights else False)
         refuse({**of_file, **others}, "a Scene: the Scene has methods for it")
         return source.render(size, **options)
     added: Any = [lights] if isinstance(lights, (Light, dict)) else listed(lights, "lights", "Light objects, or dicts of their members")
-    with scene_of(source, of_file) as drawn:
+    with scene_of(source, of_file, up) as drawn:
         if not scene_lights:
             drawn.clear_lights()
         if ground:
@@ -70,13 +72,14 @@ def render(
 
 
 def render_meshes(
-    meshes: Iterable[Any], size: Size = 128, *, material: MaterialOf = None, **options: Unpack[PictureOptions]
+    meshes: Iterable[Any], size: Size = 128, *, material: MaterialOf = None, up: Optional[Up] = None, **options: Unpack[PictureOptions]
 ) -> Iterator[pictures.Picture]:
     """Draws many small meshes, each alone in its picture: an iterator of the pictures of render((vertices, faces), size), in order.
 
     meshes: each (vertices, faces), or a dict of arguments of Scene.add_mesh() such as {"vertices": v, "faces": f, "colors": c}, but for
-    material and place; they are read as pictures are asked for, some ahead. material: of all meshes. threads: that draw, each one a picture; 0: one for each core.
-    The other keywords are those of Scene.render() but for camera, setup and out.
+    material and place; they are read as pictures are asked for, some ahead. material: of all meshes. up: the axis that points up (y).
+    threads: that draw, each one a picture; 0: one for each core. The other keywords are those of Scene.render() but for camera, setup and
+    out.
 
     Each is set up as by render(); what does not depend on the mesh, such as the renderer and the light of an environment, is kept.
     """
@@ -84,7 +87,7 @@ def render_meshes(
 
     if not hasattr(meshes, "__iter__") or isinstance(meshes, (str, bytes, dict)):
         raise UsageError(f"meshes: expected an iterable of (vertices, faces) or dicts, found {shown(meshes)}")
-    return draw_meshes(meshes, size, material, dict(options))
+    return draw_meshes(meshes, size, material, up, dict(options))
 
 
 def refuse(keywords: Dict[str, Any], of: str) -> None:
@@ -94,14 +97,14 @@ def refuse(keywords: Dict[str, Any], of: str) -> None:
             raise TypeError(f"render() has no keyword {name} for {of}")
 
 
-def scene_of(source: Any, of_file: Dict[str, Any]) -> Scene:
+def scene_of(source: Any, of_file: Dict[str, Any], up: Optional[Up]) -> Scene:
     """The scene that a source of render() is."""
     from ._trimesh import is_trimesh
 
     if not (isinstance(source, str) and source == "demo") and (
         isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)) or hasattr(source, "read")
     ):
-        more = of_file.pop("load")
+        of_file["up"], more = up, of_file.pop("load")
         if more is not None and not isinstance(more, dict):
             raise UsageError(f"load: expected a dict of keywords of Scene.load(), found {shown(more)}")
         more = more or {}
@@ -111,11 +114,12 @@ def scene_of(source: Any, of_file: Dict[str, Any]) -> Scene:
         return Scene.load(source, **{name: value for name, value in of_file.items() if value is not None}, **more)
     refuse(of_file, "what is not a file")
     if isinstance(source, str):
+        refuse({"up": up}, "the demo")
         return Scene.demo()
     if is_trimesh(source):
-        return Scene.from_trimesh(source)
+        return Scene.from_trimesh(source, up)
     if isinstance(source, (tuple, list)) and len(source) == 2 and not any(isinstance(part, (str, os.PathLike)) for part in source):
-        made = Scene()
+        made = Scene(up)
         made.add_mesh(*source)
         return made
     raise TypeError(f"source: expected a path, bytes, (vertices, faces), a trimesh or a Scene, found {type(source).__name__}")

@@ -3,12 +3,10 @@ from __future__ import annotations
 
 import ctypes
 import os
-import sys
-from typing import Any, BinaryIO, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Literal, Optional, Sequence, Tuple, Union
 
 from . import _c
 from ._camera import Camera
-from ._errors import UsageError
 from ._geometry import Geometry
 from ._lazy import np
 from ._lazy_picture import pictures
@@ -16,34 +14,30 @@ from ._lighting import Lighting
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
 from ._turntable import Turntable
-from ._types import Array, Size, Unpack
-from ._values import finite, listed, truth, up_axis, whole
-from ._world import World
+from ._loading import Source, loading, made_or_added
+from ._types import Array, BatchLight, Size, Unpack, Up, ViewOf
+from ._values import UP_AXES, finite, listed, up_axis, whole
 
-#: Members of halflit_load_options that are truths, and those that have a keyword of their own.
-_TRUTHS = ("strict",)
 _CAMERAS = "a list of cameras, or of (azimuth, elevation)"
-_MOST = {"crease_deg": 180.0, "time_limit_s": sys.float_info.max}  # of numbers from 0
-_NAMED = ("size", "reserved", "allow_external", "allow_external_count", "animation", "time_s", "scene", "variant", "keep_animations", "recentre", "up")
 
 
 class Scene(Geometry, Lighting):
     """Everything that a picture shows: meshes, instances of them, materials, textures, lights, cameras.
 
-    Scene() is empty; Scene.load(), Scene.demo() and Scene.from_trimesh() make others. Indices begin at 0. The world is right-handed with
-    y up; Scene(up="z") has another axis up. Matrices are 4 x 4 arrays with the translation in the last column. Colours are linear light with Rec. 709 primaries, "#rrggbb",
-    or uint8 sRGB codes. Arrays are read during the call; float32 arrays of the right shape, and int32 or uint32 faces, are handed over
-    without a copy.
+    Scene() is empty; Scene.load(), Scene.demo() and Scene.from_trimesh() make others. Indices begin at 0. All coordinates, of cameras,
+    lights, bounds, matrices and planes, are those of the file or of the arrays; the axis that points up decides what views call top and
+    front, where the ground is and where light comes from. Matrices are 4 x 4 arrays with the translation in the last column. Colours are
+    linear light with Rec. 709 primaries, "#rrggbb", or uint8 sRGB codes. Arrays are read during the call; float32 arrays of the right
+    shape, and int32 or uint32 faces, are handed over without a copy.
 
     Threads may use a scene at once: they wait for each other. Different scenes are drawn side by side.
     """
 
-    def __init__(self, up: str = "y") -> None:
-        """An empty scene. up: the axis that points up in its world: "x", "y", "z", "-x", "-y" or "-z"."""
+    def __init__(self, up: Optional[Up] = None) -> None:
+        """An empty scene. up: the axis that points up: "x", "y", "z", "-x", "-y" or "-z"; None: y, or that of the first file that is added."""
         self._start(_c.Handle("scene_create", "scene_destroy"))
-        if up != "y":
+        if up is not None:
             self._call("scene_set_up", up_axis(up))
-            self._up = up
 
     @classmethod
     def _of(cls, handle: _c.Handle) -> Scene:
@@ -51,10 +45,10 @@ class Scene(Geometry, Lighting):
         scene._start(handle)
         return scene
 
-    @classmethod
+    @made_or_added
     def load(
         cls,
-        source: Union[str, os.PathLike[Any], bytes, bytearray, memoryview, BinaryIO],
+        source: Source,
         *,
         animation: Union[str, int, None] = None,
         time: float = 0.0,
@@ -63,61 +57,58 @@ class Scene(Geometry, Lighting):
         keep_animations: bool = False,
         base_dir: Union[str, os.PathLike[Any], None] = None,
         recentre: bool = True,
-        up: Optional[str] = None,
+        up: Optional[Up] = None,
         **options: Any,
     ) -> Scene:
         """A scene of a model's file (glTF, STL, PLY, OBJ, 3MF and others), of its bytes, or of a file object that is open in binary mode.
-        The content tells the format.
+        The content tells the format. Called on a scene, it adds the file to that, as add_file() does, and returns it.
 
         animation: name or index of the animation that poses it (the first), or "none"; time: seconds.
         scene: name or index of the file's scene. variant: of the file's materials.
         keep_animations: for pose(). base_dir: folder of files that bytes refer to; without it none is read.
         recentre: a model that is far from the origin is drawn near it, and a tiny or huge one in another size, so that float32 keeps its
-        shape. All that is given and asked for stays in the file's own world.
-        up: axis of the model that points up, "x", "y", "z", "-x", "-y" or "-z": the scene is turned so that it becomes y. The usual one is
-        z for STL and 3MF and y for other files.
+        shape. All that is given and asked for stays in the file's own coordinates.
+        up: axis of the model that points up, "x", "y", "z", "-x", "-y" or "-z". The usual one is z for STL and 3MF and y for other files.
         Other keywords are members of halflit_load_options, such as strict=True, crease_deg=60, time_limit_s=10, max_texture_side=4096 or
         allow_external="/models/shared", a folder or a list of folders in which the model's files may lie too.
         """
-        how = _c.make("load_options")
-        folders = options.pop("allow_external", ())
-        listed = [folders] if isinstance(folders, (str, bytes, os.PathLike)) else folders  # a text is not a list of letters
-        names = [_c.bytes_of(folder, "allow_external") for folder in listed]
-        if names:
-            how.allow_external = ctypes.cast((ctypes.c_char_p * len(names))(*names), ctypes.c_void_p)
-            how.allow_external_count = len(names)
-        for name, value in options.items():
-            if name not in how._kinds or name in _NAMED:
-                raise TypeError(f"Scene.load() has no keyword {name!r}")
-            setattr(how, name, truth(value, name) if name in _TRUTHS else value)
-            if name in _MOST and not 0 <= getattr(how, name) <= _MOST[name]:  # NaN neither
-                raise UsageError(f"{name}: expected a number from 0 {'on' if _MOST[name] > 1e9 else f'to {_MOST[name]:g}'}, found {value!r}")
-        how.time_s = finite(time, "time")
-        how.keep_animations, how.recentre = truth(keep_animations, "keep_animations"), truth(recentre, "recentre")
-        how.up = 0 if up is None else up_axis(up)
-        for name, text in (("animation", animation), ("scene", scene), ("variant", variant)):
-            setattr(how, name, None if text is None else _c.bytes_of(str(text), name))
-        read, name = getattr(source, "read", None), "bytes"
-        if read is not None:
-            named = getattr(source, "name", None)
-            name = named if isinstance(named, str) else "file"
-            try:
-                source = read()
-            except UnicodeDecodeError:  # it reads text
-                source = ""
-            if not isinstance(source, bytes):
-                raise UsageError(f"source: expected a file that is open in binary mode, found one that reads {type(source).__name__}")
-        if isinstance(source, (bytes, bytearray, memoryview)):
-            data = bytes(source)
-            names_of_both = os.fsencode(name), _c.bytes_of(base_dir, "base_dir")
-            handle = _c.Handle("scene_load_memory", "scene_destroy", data, len(data), *names_of_both, ctypes.byref(how))
-        else:
-            handle = _c.Handle("scene_load", "scene_destroy", _c.required(source, "source"), ctypes.byref(how))
-        made = cls._of(handle)
-        origin, scale = (ctypes.c_double * 3)(), ctypes.c_double()
-        made._call("scene_get_placement", origin, ctypes.byref(scale), None)
-        made._world = World(tuple(origin), scale.value)
+        keywords: Dict[str, Any] = dict(animation=animation, time=time, scene=scene, variant=variant, recentre=recentre, up=up)
+        keywords["keep_animations"] = keep_animations
+        name, arguments = loading(source, base_dir, {**keywords, **options})
+        made = cls._of(_c.Handle("scene_" + name.replace("add_file", "load"), "scene_destroy", *arguments))
+        if keep_animations:
+            again = arguments[0] if name == "add_file_memory" else os.fsdecode(arguments[0])
+            made._animated = again, {**keywords, **options, "base_dir": base_dir}
         return made
+
+    def add_file(
+        self,
+        source: Source,
+        pose: Any = None,
+        *,
+        animation: Union[str, int, None] = None,
+        time: float = 0.0,
+        scene: Union[str, int, None] = None,
+        variant: Optional[str] = None,
+        base_dir: Union[str, os.PathLike[Any], None] = None,
+        **options: Any,
+    ) -> range:
+        """Adds all that a file has, which a robot's link may be, and returns the indices of the instances that were added.
+
+        pose: 4 x 4, from the file's coordinates to the scene's (the identity); set_instance() moves the instances later. A scene that is
+        empty and was made without up takes that of the file. The other keywords are those of load().
+
+            arm = halflit.Scene(up="z")
+            for link, pose in links: arm.add_file(f"meshes/{link}.stl", pose)
+        """
+        from ._arrays import matrix
+
+        columns = np.ascontiguousarray((np.eye(4) if pose is None else matrix(pose, "pose")).T)
+        first, count = ctypes.c_int32(), ctypes.c_int32()
+        name, arguments = loading(source, base_dir, dict(animation=animation, time=time, scene=scene, variant=variant, **options))
+        self._change("scene_" + name, *arguments, columns.ctypes.data, ctypes.byref(first), ctypes.byref(count))
+        self._warnings = None
+        return range(first.value, first.value + count.value)
 
     @classmethod
     def demo(cls) -> Scene:
@@ -125,26 +116,26 @@ class Scene(Geometry, Lighting):
         return cls._of(_c.Handle("scene_create_demo", "scene_destroy"))
 
     @classmethod
-    def from_trimesh(cls, mesh: Any) -> Scene:
-        """A scene of a trimesh.Trimesh, trimesh.PointCloud or trimesh.Scene: vertices, faces, normals, uv, colours and materials."""
-        from ._trimesh import add
+    def from_trimesh(cls, mesh: Any, up: Optional[Up] = None) -> Scene:
+        """A scene of a trimesh.Trimesh, trimesh.PointCloud or trimesh.Scene: vertices, faces, normals, uv, colours and materials, and paths
+        as lines.
 
-        scene = cls()
+        up: the axis that points up; None: as in load(), by the format of the file that trimesh has read it from, and y without one.
+        """
+        from ._trimesh import add, up_of
+
+        scene = cls(up or up_of(mesh))
         add(scene, mesh)
         return scene
 
     # ---- what the scene has ---------------------------------------------------------------------------------------------
 
     @property
-    def origin(self) -> Tuple[float, ...]:
-        """The point of the file that is drawn at the world's origin: a point p of it, turned so that y points up, is drawn at
-        (p - origin) * scale."""
-        return self._world.origin
-
-    @property
-    def scale(self) -> float:
-        """See origin; 1 unless the file's model is tiny or huge."""
-        return self._world.scale
+    def up(self) -> Up:
+        """The axis that points up: "x", "y", "z", "-x", "-y" or "-z"."""
+        found = ctypes.c_int32()
+        self._call("scene_get_placement", None, None, ctypes.byref(found))
+        return UP_AXES[found.value - 1]
 
     @property
     def animations(self) -> List[Dict[str, Any]]:
@@ -164,11 +155,9 @@ class Scene(Geometry, Lighting):
     @property
     def bounds(self) -> Optional[Array]:
         """World-space box of everything drawn, float64 (2, 3): its least and its largest corner; None if there is nothing."""
-        box = np.empty((2, 3), np.float32)
-        self._call("scene_get_bounds", box[0].ctypes.data, box[1].ctypes.data)
-        if not np.isfinite(box).all():
-            return None
-        return np.array([self._world.point_out(corner) for corner in box.astype(np.float64)])
+        box = np.empty((2, 3))
+        self._call("scene_get_box", box[0].ctypes.data, box[1].ctypes.data)
+        return box if np.isfinite(box).all() else None
 
     @property
     def cameras(self) -> List[Camera]:
@@ -179,14 +168,14 @@ class Scene(Geometry, Lighting):
         camera = Camera()
         with self._lock:  # its name is the scene's
             self._call("scene_get_camera", index, ctypes.byref(camera._c))
-            return self._world.out(camera._copied())
+            return camera._copied()
 
     def frame(self, aspect: float = 1.0, azimuth: float = 35.0, elevation: float = 20.0, zoom: float = 1.0) -> Camera:
-        """A view of the whole scene. aspect: width / height of the picture; angles in degrees: azimuth around +y, 0 from +z and positive
-        from the right; elevation above the horizon. zoom: 2 makes things twice as large."""
+        """A view of the whole scene. aspect: width / height of the picture; angles in degrees: azimuth around the vertical, 0 from the
+        front and positive from the right; elevation above the horizon. zoom: 2 makes things twice as large."""
         camera = Camera()
         self._call("camera_frame", aspect, azimuth, elevation, zoom, ctypes.byref(camera._c))
-        return self._world.out(camera)
+        return camera
 
     # ---- drawing --------------------------------------------------------------------------------------------------------
 
@@ -223,7 +212,7 @@ class Scene(Geometry, Lighting):
             return draw(self, size, dict(options))
 
     def render_batch(
-        self, cameras: Iterable[Any], size: Size = None, *, light: str = "fixed", ahead: int = 0, **options: Unpack[PictureOptions]
+        self, cameras: Iterable[Any], size: Size = None, *, light: BatchLight = "fixed", ahead: int = 0, **options: Unpack[PictureOptions]
     ) -> Iterator[pictures.Picture]:
         """Draws the scene by many cameras: an iterator of pictures, each drawn when it is asked for.
 
@@ -248,7 +237,7 @@ class Scene(Geometry, Lighting):
         return drawn_ahead(drawn, ahead)
 
     def render_arrays(
-        self, cameras: Iterable[Any], size: Size = None, *, light: str = "fixed", **options: Unpack[PictureOptions]
+        self, cameras: Iterable[Any], size: Size = None, *, light: BatchLight = "fixed", **options: Unpack[PictureOptions]
     ) -> Dict[str, Array]:
         """The pictures of render_batch() in one array for each plane: "color", (n, height, width, 4), and those that `aovs` names.
 
@@ -259,7 +248,9 @@ class Scene(Geometry, Lighting):
 
         return draw_arrays(self, listed(cameras, "cameras", _CAMERAS), size, light, dict(options))
 
-    def render_views(self, views: Sequence[Any], size: Size = None, *, light: str = "viewer", **options: Unpack[PictureOptions]) -> Dict[Any, pictures.Picture]:
+    def render_views(
+        self, views: Sequence[ViewOf], size: Size = None, *, light: BatchLight = "viewer", **options: Unpack[PictureOptions]
+    ) -> Dict[Any, pictures.Picture]:
         """Pictures of several sides that can be compared, by one distance and one scale, as `halflit render --view`: a dict of pictures by
         their views.
 
@@ -280,8 +271,8 @@ class Scene(Geometry, Lighting):
         *,
         azimuths: int = 24,
         elevations: Sequence[float] = (-15, 20, 55),
-        light: str = "viewer",
-        format: str = "png",
+        light: BatchLight = "viewer",
+        format: Literal["png", "webp", "jpg"] = "png",
         **options: Unpack[PictureOptions],
     ) -> Turntable:
         """A view that is turned by dragging: notebooks show it, without a network, and save() writes it as a page.
@@ -310,7 +301,7 @@ class Scene(Geometry, Lighting):
     def measure(
         self,
         size: Size = None,
-        quality: Union[str, Tuple[float, float]] = "fast",
+        quality: Union[Literal["fast", "draft"], Tuple[float, float]] = "fast",
         known: Optional[Dict[str, Any]] = None,
         **options: Unpack[PictureOptions],
     ) -> Dict[str, Any]:

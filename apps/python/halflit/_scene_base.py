@@ -2,14 +2,16 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, List, NoReturn, Optional, Set, TypeVar
+from typing import Any, Dict, List, Optional, Set, TypeVar
 
 from . import _c
 from ._errors import UsageError
 from ._execution import SceneLock
-from ._world import World
 
 Self = TypeVar("Self", bound="SceneBase")
+
+#: What a copy remembers.
+_KEPT = ("_own_lights", "_plain", "_materials", "_smooth", "_own_materials", "_animated")
 
 
 class SceneBase:
@@ -21,11 +23,10 @@ class SceneBase:
         self._mark = object()  # of this scene alone; its setups have it
         self._renderer: Any = None
         self._executed: Any = None  # Execution.key of the renderer
-        self._world = World()
-        self._up = "y"  # the caller's world's axis that points up
         self._changes = 0  # of anything that setup() looks at
         self._chosen: Any = None  # what was chosen for the last frame, and the key of what it was chosen for
         self._own_lights = False  # add_light() was called
+        self._animated: Any = None  # arguments of load() with keep_animations
         self._told: Set[Any] = set()  # warnings that were shown
         self._warnings: Optional[List[str]] = None  # of loading
         self._plain: Dict[bool, int] = {}  # materials of meshes that are given none, lit and unlit
@@ -71,8 +72,14 @@ class SceneBase:
         with self._lock:
             self._handle = self._renderer = None
 
-    def __reduce_ex__(self, protocol: Any) -> NoReturn:
-        raise TypeError("a halflit.Scene cannot be copied or pickled: make a second one, or in another process load its file again")
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """A copy, or a pickle, is a scene of its own in the same state. Where it keeps animations, it loads its file again."""
+        taken: List[bytes] = []
+        write = _c.Write(lambda user, bytes, count: taken.append(ctypes.string_at(bytes, count)))
+        with self._lock:
+            self._call("scene_save", write, None)
+            kept = {name: getattr(self, name) for name in _KEPT}
+            return _restored, (type(self), taken[0], self._animated, kept)
 
     def __enter__(self: Self) -> Self:
         return self
@@ -84,3 +91,12 @@ class SceneBase:
         if self._handle is None:
             return "<halflit.Scene, closed>"
         return f"<halflit.Scene of {', '.join(f'{n} {name}' for name, n in self.counts.items() if n)}>"
+
+
+def _restored(kind: Any, data: bytes, animated: Any, kept: Dict[str, Any]) -> Any:
+    scene = kind() if animated is None else kind.load(animated[0], **animated[1])
+    scene._change("scene_restore", data, len(data))
+    for name, value in kept.items():
+        setattr(scene, name, value)
+    scene._warnings = None
+    return scene

@@ -14,15 +14,15 @@ from ._lazy import np
 from ._options import VIEW, WHOLE_SCENE, check_names
 from ._record import chosen
 from ._values import finite, listed, real, shown, sized
-from ._views import drawn_views, has_parallel_rays, margins
-from ._world import World
+from ._views import has_parallel_rays, margins, views_of
+
 
 class Setup:
     """What Scene.setup() chose: size, camera, light and settings. render(setup=...) draws by it again, whatever has moved since."""
 
     def __init__(self, camera: Camera, settings: Any, lighting: Any, size: Tuple[int, int], mark: object) -> None:
         self.size = size  #: width, height
-        self._camera = camera  # in the file's world
+        self._camera = camera
         self._settings = settings
         self._lighting = lighting
         self._mark = mark  # of its scene, which it does not keep alive
@@ -49,7 +49,7 @@ class Setup:
 
 
 class Request:
-    """A halflit_picture_request, with what it points to: a camera in the world that is drawn, and the name of one of the scene."""
+    """A halflit_picture_request, with what it points to: a camera, and the name of one of the scene."""
 
     def __init__(self, struct: Any, camera: Optional[Camera], name: Optional[str]) -> None:
         self.struct = struct
@@ -118,7 +118,7 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
         if isinstance(given, (str, int, np.integer)):
             scene_camera = str(given)
         else:
-            camera = scene._world.into(given_camera(given))
+            camera = given_camera(given).copy()
     for name, member in (("azimuth", "azimuth_deg"), ("elevation", "elevation_deg"), ("zoom", "zoom"), ("fov", "fov_y_deg")):
         if name in whole_scene:
             struct.put(member, finite(options[name], name), name)
@@ -126,7 +126,7 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
         for name in ("azimuth", "elevation"):
             if name in whole_scene:
                 raise UsageError(f"view: cannot be combined with {name}")
-        camera = drawn_views(scene, [options["view"]], size, options)[0]
+        camera = views_of(scene, [options["view"]], size, options)[0]
     elif options.get("fit") is not None:
         struct.margin_x, struct.margin_y = margins(options["fit"], size)
     struct.orthographic = has_parallel_rays(options)
@@ -168,7 +168,7 @@ def set_up(scene: Any, request: Request) -> Setup:
     lighting = _c.Handle(
         "choose_picture", "lighting_destroy", scene._handle, *map(ctypes.byref, (request.struct, size, camera._c, settings))
     )
-    return Setup(scene._world.out(camera), settings, lighting, (size[0], size[1]), scene._mark)
+    return Setup(camera, settings, lighting, (size[0], size[1]), scene._mark)
 
 
 def choose(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:
@@ -195,7 +195,7 @@ def choose_for_all(scene: Any, size: Any, poses: Any, bounds: Any, options: Dict
         raise UsageError("poses: expected one in which something is drawn")
     low, high = np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)
     middle, half = (low + high) / 2, np.maximum((high - low) / 2, 1e-6 * np.abs(high - low).max() or 1e-6)
-    of_box = type(scene)(up=scene._up)  # around its own origin, where float32 is exact enough
+    of_box = type(scene)(up=scene.up)  # around its own origin, where float32 is exact enough
     of_box.add_mesh(np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half, topology="points")
     camera = choose(of_box, size, options).camera
     matrix = camera.matrix
@@ -248,8 +248,3 @@ def kept(scene: Any, size: Any, options: Dict[Any, Any]) -> Setup:
     if size is not None and checked_size(size) != setup.size:
         raise UsageError(f"setup: made for {setup.size[0]} x {setup.size[1]} pixels")
     return setup
-
-
-def drawn_camera(world: World, setup: Setup) -> Camera:
-    """The setup's camera in the world that is drawn."""
-    return world.into(setup._camera)

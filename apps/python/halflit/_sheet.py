@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any, Iterable, Optional, Sequence, Union
 
 import numpy as np
@@ -10,7 +11,7 @@ from ._color import BRIGHTEST, color, srgb_from_linear
 from ._errors import UsageError
 from ._picture import Picture, codes_of
 from ._types import Array, Color
-from ._values import listed, shown, whole
+from ._values import listed, whole
 
 _LABEL_SHARE = 14  # a line of letters is at least this share of a picture's width
 _LEAST_LETTERS = 11  # pixels
@@ -28,9 +29,9 @@ def contact_sheet(
     """One picture with all of them in rows, uint8 (height, width, 4).
 
     pictures: each uint8 or float32 of shape (height, width, 3 or 4), of any sizes; or a dict of pictures by their labels, as
-    Scene.render_views() returns. labels: a text for each, written below it by Pillow, which is needed for this alone. columns: the square
-    root of their number, rounded up, if it is left out. gap: pixels between pictures, and around them. background: of the sheet, which
-    lies behind transparent pictures too.
+    Scene.render_views() returns. labels: a text for each, written below it in the program's font by Pillow, which is needed for this alone.
+    columns: the square root of their number, rounded up, if it is left out. gap: pixels between pictures, and around them. background: of
+    the sheet, which lies behind transparent pictures too.
     """
     if isinstance(pictures, dict):
         labels = list(pictures) if labels is None else labels
@@ -86,21 +87,22 @@ def _lay(picture: Array, at: Array) -> None:
     at[:, :, :3], at[:, :, 3:] = (mixed + 0.5).astype(np.uint8), (total * 255 + 0.5).astype(np.uint8)
 
 
+def font_path() -> str:
+    """The program's font: beside this file, or in the tree of the sources."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    own = os.path.join(here, "dejavu_sans.ttf")
+    return own if os.path.exists(own) else os.path.join(here, "..", "..", "halflit", "fonts", "dejavu_sans.ttf")
+
+
 def _written(text: str, letters: int, width: int, height: int) -> Union[Array, Any]:
     """The text's coverage, 0 to 255: in the middle, or shortened if it is too long."""
     try:
         from PIL import Image, ImageDraw, ImageFont
     except ImportError:
         raise ImportError("halflit.contact_sheet(labels=...) needs Pillow: pip install pillow") from None
-    load: Any = ImageFont.load_default
-    try:
-        font = load(letters)  # of Pillow 10.1
-    except TypeError:
-        font = load()
+    font = ImageFont.truetype(font_path(), letters)
     measure = ImageDraw.Draw(Image.new("L", (1, 1)))
     line = " ".join(text.split())
-    if isinstance(font, ImageFont.ImageFont):  # a font of bitmaps has Latin 1 alone
-        line = line.encode("latin-1", "replace").decode("latin-1")
     cut = line
     while cut and measure.textlength(cut + ("" if cut == line else ".."), font) > width:
         cut = cut[:-1]
@@ -109,9 +111,6 @@ def _written(text: str, letters: int, width: int, height: int) -> Union[Array, A
     size = max(1, int(right - left)), max(1, int(bottom - top))
     image = Image.new("L", size, 0)
     ImageDraw.Draw(image).text((-left, -top), line, 255, font)
-    if not hasattr(font, "size"):  # of one size: made larger by whole factors
-        factor = max(1, min(letters // 11, width // size[0]))
-        image = image.resize((size[0] * factor, size[1] * factor), Image.NEAREST)
     found = np.zeros((height, width), np.uint8)
     mask = np.asarray(image)[:height, :width]
     y, x = (height - mask.shape[0]) // 2, (width - mask.shape[1]) // 2

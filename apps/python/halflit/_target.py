@@ -56,7 +56,7 @@ class Target:
 def part_numbers(scene: Any) -> Array:
     """The part of each instance, by its index plus 1."""
     counts = scene.counts
-    numbers = np.arange(counts["instances"] + 1, dtype=np.uint32)
+    numbers = np.arange(counts["instances"] + 1, dtype=np.int32)
     if counts["nodes"] > 0:
         numbers[:] = 0
         placing = [node["instances"] for node in scene.nodes if node["instances"]]

@@ -1,7 +1,8 @@
 """Meshes of the library trimesh, which need not be installed: only what the objects offer is used. This module imports numpy."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
+import os
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -11,8 +12,10 @@ from ._material import Material
 
 if TYPE_CHECKING:
     from ._scene import Scene
-from ._types import Array
+from ._types import Array, Up
 
+#: Formats whose z points up by custom, as trimesh names them.
+_Z_UP = frozenset(("stl", "stl_ascii", "3mf"))
 #: Diffuse colour of a SimpleMaterial that was given none: trimesh's DEFAULT_COLOR. It would darken a texture.
 _NO_DIFFUSE = [102, 102, 102, 255]
 
@@ -22,48 +25,107 @@ def is_trimesh(value: Any) -> bool:
     return any(kind.__module__.partition(".")[0] == "trimesh" for kind in type(value).__mro__)
 
 
-def add(scene: Scene, value: Any) -> None:
-    """Adds all that the object has to the scene."""
+def up_of(value: Any) -> Optional[Up]:
+    """The axis that points up by the file that trimesh has read the object from; None: by none."""
+    parts = list(value.geometry.values()) if hasattr(value, "geometry") else [value]
+    return "z" if parts and all(_file_type(part) in _Z_UP for part in parts) else None
+
+
+def _file_type(value: Any) -> str:
+    """As trimesh names it, such as "stl" or "stl_ascii"; "" for what was made by code."""
+    kind = getattr(getattr(value, "source", None), "file_type", None)
+    if not kind:  # trimesh before version 4.5
+        metadata = getattr(value, "metadata", None)
+        kind = os.path.splitext(str(metadata.get("file_name") or ""))[1][1:] if isinstance(metadata, dict) else ""
+    return str(kind).lower()
+
+
+def add(scene: Scene, value: Any, smooth: bool = True) -> None:
+    """Adds all that the object has to the scene. smooth: False: triangles are flat."""
     if hasattr(value, "geometry") and hasattr(value, "graph"):
         meshes: Dict[Any, Any] = {}
         for node in value.graph.nodes_geometry:
             matrix, name = value.graph[node]
             if name not in meshes:
-                meshes[name] = add_geometry(scene, value.geometry[name], name)
+                meshes[name] = add_geometry(scene, value.geometry[name], name, smooth)
             if meshes[name] is not None:
                 scene.add_instance(meshes[name], matrix)
         return
-    mesh = add_geometry(scene, value, None)
+    mesh = add_geometry(scene, value, None, smooth)
     if mesh is None:
-        raise UsageError(f"mesh: expected a Trimesh, PointCloud or Scene of trimesh, found {type(value).__name__}")
+        raise UsageError(f"mesh: expected a Trimesh, PointCloud, Path or Scene of trimesh, found {type(value).__name__}")
     scene.add_instance(mesh)
 
 
-def add_geometry(scene: Scene, mesh: Any, name: Any) -> Optional[int]:
-    """The index of the mesh; None for what has no triangles and no points."""
+def add_geometry(scene: Scene, mesh: Any, name: Any, smooth: bool) -> Optional[int]:
+    """The index of the mesh; None for what has no triangles, lines or points."""
     if not hasattr(mesh, "faces"):
-        if not hasattr(mesh, "vertices") or hasattr(mesh, "entities"):
+        if hasattr(mesh, "entities"):
+            return add_path(scene, mesh, name)
+        if not hasattr(mesh, "vertices"):
             return None
         colors = getattr(mesh, "colors", None)
         colors = colors if colors is not None and len(colors) == len(mesh.vertices) else None
         return scene.add_mesh(mesh.vertices, topology="points", colors=colors, material={"unlit": True}, name=name, place=False)
-    mesh, has_normals = shaded(mesh)
-    visual, uv, colors = mesh.visual, getattr(mesh.visual, "uv", None), None
-    vertices, faces, normals = mesh.vertices, mesh.faces, mesh.vertex_normals if has_normals else None
-    kind = getattr(visual, "kind", None)
-    if uv is not None:
-        uv = np.asarray(uv, dtype=np.float32) * (1, -1) + (0, 1)  # v points up in trimesh
-    elif kind == "vertex":
-        colors = np.asarray(visual.vertex_colors, dtype=np.uint8)
-    elif kind == "face":
+    kind, uv, colors = getattr(mesh.visual, "kind", None), getattr(mesh.visual, "uv", None), None
+    members = material_of(scene, getattr(mesh.visual, "material", None))  # which smooth_shaded does not keep without uv
+    if kind == "face" and uv is None:
         # Each face has its own colour: corners are split.
-        corners = np.asarray(faces).ravel()
-        vertices, normals = np.asarray(vertices)[corners], None if normals is None else np.asarray(normals)[corners]
-        colors = np.repeat(np.asarray(visual.face_colors, dtype=np.uint8), 3, axis=0)
-        faces = None
-    members = material_of(scene, getattr(visual, "material", None))
+        vertices, faces, normals = corners_of(mesh).reshape(-1, 3), None, corner_normals(mesh) if smooth else None
+        colors = np.repeat(np.asarray(mesh.visual.face_colors, dtype=np.uint8), 3, axis=0)
+    else:
+        mesh, has_normals = shaded(mesh) if smooth else (mesh, False)
+        vertices, faces, normals = mesh.vertices, mesh.faces, mesh.vertex_normals if has_normals else None
+        uv = getattr(mesh.visual, "uv", None)
+        if uv is not None:
+            uv = np.asarray(uv, dtype=np.float32) * (1, -1) + (0, 1)  # v points up in trimesh
+        elif kind == "vertex":
+            colors = np.asarray(mesh.visual.vertex_colors, dtype=np.uint8)
     material = None if members is None else Material(**members)
     return scene.add_mesh(vertices, faces, normals=normals, uv=uv, colors=colors, material=material, name=name, place=False)
+
+
+def add_path(scene: Scene, path: Any, name: Any) -> Optional[int]:
+    """The lines of a Path2D or Path3D, in the colours of its entities, black without them."""
+    points: List[Array] = []
+    pairs: List[Array] = []
+    colors: List[Array] = []
+    count = 0
+    for entity in path.entities:
+        line = np.asarray(entity.discrete(path.vertices), np.float64)
+        if len(line) < 2:
+            continue
+        points.append(np.pad(line, ((0, 0), (0, 3 - line.shape[1]))))
+        pairs.append(np.stack([np.arange(count, count + len(line) - 1), np.arange(count + 1, count + len(line))], axis=1))
+        color = np.asarray(getattr(entity, "color", None) if getattr(entity, "color", None) is not None else (0, 0, 0, 255))
+        codes = np.rint(color * 255.0 if color.dtype.kind == "f" else color).astype(np.uint8)
+        colors.append(np.tile(np.append(codes, np.uint8(255))[:4], (len(line), 1)))
+        count += len(line)
+    if not points:
+        return None
+    return scene.add_mesh(np.concatenate(points), np.concatenate(pairs), colors=np.concatenate(colors), topology="lines",
+                          material={"unlit": True}, name=name, place=False)  # fmt: skip
+
+
+def corners_of(mesh: Any) -> Array:
+    """Positions, (faces, 3, 3)."""
+    return np.asarray(np.asarray(mesh.vertices)[np.asarray(mesh.faces)])
+
+
+def corner_normals(mesh: Any) -> Optional[Array]:
+    """Normals of the corners of all faces, in their order, as shaded() has them; None: faces are flat."""
+    smooth, has_normals = shaded(mesh)
+    if not has_normals:
+        return None
+    normals = np.asarray(smooth.vertex_normals)[np.asarray(smooth.faces)]
+    if smooth is not mesh:  # its faces are in another order
+        parts = getattr(smooth, "metadata", {}).get("original_components", [np.arange(len(mesh.faces))])
+        order = np.concatenate([np.ravel(part) for part in parts])
+        if len(order) != len(normals) or not np.allclose(corners_of(smooth), corners_of(mesh)[order]):
+            return None
+        normals[order] = normals.copy()
+    found: Array = normals.reshape(-1, 3)
+    return found
 
 
 def shaded(mesh: Any) -> Tuple[Any, ...]:

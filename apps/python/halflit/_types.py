@@ -1,7 +1,7 @@
 """Types of arguments."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Literal, Sequence, Tuple, Union
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,3 +28,26 @@ Point = Union[Sequence[float], Array]
 #: (width, height) in pixels, or the side of a square.
 Size = Union[int, Tuple[int, int], None]
 Members = Dict[str, Any]
+#: The axis that points up.
+Up = Literal["x", "y", "z", "-x", "-y", "-z"]
+ViewName = Literal["front", "back", "left", "right", "top", "bottom", "iso"]
+#: A side that the whole scene is seen from: a name, or (azimuth, elevation) in degrees.
+ViewOf = Union[ViewName, Tuple[float, float]]
+#: Light of many pictures: that of the first, or turned with each camera.
+BatchLight = Literal["fixed", "viewer"]
+Wrap = Literal["repeat", "mirror", "clamp"]
+Filter = Literal["nearest", "linear"]
+MipFilter = Literal["none", "nearest", "linear"]
+AlphaMode = Literal["opaque", "mask", "blend"]
+LightType = Literal["directional", "point", "spot"]
+LobeName = Literal["lambert", "green", "half-lambert", "valve", "sloan", "mcauley"]
+Topology = Literal["triangles", "lines", "points"]
+Encoding = Literal["srgb", "linear"]
+TextureEncoding = Literal["srgb", "linear", "srgb_by_alpha", "normal"]
+Studio = Literal["for_dark", "under_lights", "always", "never"]
+Isa = Literal["scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64"]
+Part = Literal["node", "instance", "mesh", "material", "camera"]
+Aov = Literal[
+    "depth", "normal", "vertex_normal", "albedo", "position", "id", "triangle", "coverage", "lights", "barycentric", "uv", "ray",
+    "view_normal", "mesh", "material", "part",
+]  # fmt: skip

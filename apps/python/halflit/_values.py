@@ -6,6 +6,7 @@ import operator
 from typing import Any, List, Tuple
 
 from ._errors import UsageError
+from ._types import Up
 
 
 def shown(value: Any) -> str:
@@ -15,9 +16,9 @@ def shown(value: Any) -> str:
 
 
 def whole(value: Any, name: str, low: int, high: int) -> int:
-    """A whole number in [low, high]. A float is none, even if it is 2.0."""
+    """A whole number in [low, high]. A float is none, even if it is 2.0, and True is none."""
     try:
-        number = operator.index(value)
+        number = operator.index("" if isinstance(value, bool) else value)
     except TypeError:
         raise UsageError(f"{name}: expected a whole number, found {shown(value)}") from None
     if not low <= number <= high:
@@ -83,9 +84,12 @@ def finite(value: Any, name: str) -> float:
     return number
 
 
+#: In the order of HALFLIT_UP, from 1.
+UP_AXES: Tuple[Up, ...] = ("x", "y", "z", "-x", "-y", "-z")
+
+
 def up_axis(name: str) -> int:
     """The HALFLIT_UP of "z", "-z" and so on."""
-    axes = ("x", "y", "z", "-x", "-y", "-z")  # the order of HALFLIT_UP, from 1
-    if name not in axes:
-        raise UsageError(f"up: expected one of {', '.join(axes)}, found {shown(name)}")
-    return 1 + axes.index(name)
+    if not isinstance(name, str) or name not in UP_AXES:
+        raise UsageError(f"up: expected one of {', '.join(UP_AXES)}, found {shown(name)}")
+    return 1 + UP_AXES.index(name)

@@ -49,8 +49,8 @@ def view_struct(scene: Any, view: Any, size: Optional[Tuple[int, int]], options:
     return struct
 
 
-def drawn_views(scene: Any, views: Sequence[Any], size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> List[Camera]:
-    """Cameras of the world that is drawn, of one distance and scale."""
+def views_of(scene: Any, views: Sequence[Any], size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> List[Camera]:
+    """Cameras of one distance and scale."""
     width, height = size or USUAL_SIZE
     structs = [view_struct(scene, view, size, options) for view in views]
     view_type: Any = type(structs[0])

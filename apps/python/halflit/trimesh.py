@@ -19,15 +19,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ._camera import Camera
-from ._errors import UsageError
+from ._errors import UsageError, warn
 from ._members import CameraMembers
+from ._picture_options import PictureOptions
 from ._scene import Scene
-from ._trimesh import add
+from ._trimesh import add, up_of
 
 #: Keywords of trimesh's viewer that decide nothing in a picture without a window.
 _OF_WINDOWS = frozenset(
-    "visible smooth flags start_loop callback callback_period caption fixed offset_lines line_settings window_conf profile record"
-    " fullscreen resizable vsync display screen style".split()
+    "visible start_loop callback callback_period caption fixed offset_lines window_conf profile record fullscreen resizable vsync display"
+    " screen style".split()
 )
 #: What save_image() of trimesh.Scene was before register().
 _original: Any = None
@@ -50,24 +51,34 @@ def unregister() -> None:
         _original = None
 
 
-def save_image(scene: Any, resolution: Any = None, background: Any = None, **options: Any) -> bytes:
+def save_image(scene: Any, resolution: Any = None, background: Any = None, **keywords: Any) -> bytes:
     """A picture of a trimesh.Scene by its camera, as the bytes of a PNG, which has alpha if not all pixels are opaque.
 
     resolution: width and height in pixels, which become those of scene.camera, as in trimesh; None: those of scene.camera. background:
     (3,) or (4,), bytes or floats (white). Lights that were set as scene.lights shine from where they are, as bright at any distance, as in
-    trimesh's viewer; without them light is chosen as in halflit.render(). Other keywords of trimesh's viewer, such as visible, are taken
-    and decide nothing.
+    trimesh's viewer; without them light is chosen as in halflit.render(). smooth: False: triangles are flat. line_settings: line_width and
+    point_size, pixels. Of the viewer's flags, axis, grid and wireframe are warned of, as they are not drawn. Its other keywords, such as
+    visible, are taken and decide nothing.
     """
-    unknown = [name for name in options if name not in _OF_WINDOWS]
+    smooth, sizes = bool(keywords.pop("smooth", True)), keywords.pop("line_settings", None) or {}
+    undrawn = [name for name in ("wireframe", "axis", "grid") if (keywords.get("flags") or {}).get(name)]
+    if undrawn:
+        warn(f"flags: {', '.join(undrawn)} not drawn")
+    unknown = [name for name in keywords if name not in _OF_WINDOWS and name != "flags"]
     if unknown:
         raise TypeError(f"save_image() has no keyword {unknown[0]!r}")
     if resolution is not None:
         scene.camera.resolution = resolution
     size = tuple(int(side) for side in scene.camera.resolution)
-    made = Scene()
-    add(made, scene)
+    made = Scene(up_of(scene))
+    add(made, scene, smooth)
     _add_lights(made, scene)
-    pixels = made.render((size[0], size[1]), camera=_camera(scene), background=_codes(background), contact_shadow=0)
+    options: PictureOptions = {"camera": _camera(scene), "background": _codes(background), "contact_shadow": 0}
+    if "line_width" in sizes:
+        options["line_width"] = float(sizes["line_width"])
+    if "point_size" in sizes:
+        options["point_size"] = float(sizes["point_size"])
+    pixels = made.render((size[0], size[1]), **options)
     return pixels.to_png()
 
 

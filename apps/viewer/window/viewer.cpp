@@ -59,7 +59,7 @@ public:
         texts_.pixel = "A click on the picture tells how its pixel came about.";
         for (const std::string& warning : job.warnings) texts_.report += "warning: " + warning + "\n";
         texts_.exposure = job.settings.exposure;
-        origin_ = job.source.placement.origin, scale_ = job.source.placement.scale;
+        placement_ = job.source.placement;
         title_ = "halflit: " + job.source.name;
         node_name_ = cli::names_of(job.source.parts);
         worker_ = std::make_unique<FrameWorker>(std::move(job), options, [this] { wake(); });
@@ -276,7 +276,7 @@ private:
     [[nodiscard]] std::string view_flags() const {
         const bool resized = picture_width_ != started_width_ || picture_height_ != started_height_;
         const std::string size = resized ? fmt::format("--size {}x{}", picture_width_, picture_height_) : "";
-        const std::string view = orbit_.flags(static_cast<double>(picture_width_) / picture_height_, origin_, scale_);
+        const std::string view = orbit_.flags(static_cast<double>(picture_width_) / picture_height_, placement_);
         return size + (size.empty() || view.empty() ? "" : " ") + view;
     }
 
@@ -332,8 +332,7 @@ private:
     const Uint32 done_event_;
     std::string title_;
     cli::NameOfInstance node_name_;
-    Vec3d origin_{};  ///< a point p of the file is drawn at (p - origin) * scale
-    double scale_ = 1.0;
+    Placement placement_;  ///< where the file's model is drawn
     int picture_width_ = 0, picture_height_ = 0, started_width_ = 0, started_height_ = 0;
     std::unique_ptr<Gui> gui_;
 

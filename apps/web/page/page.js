@@ -84,6 +84,11 @@ async function draw_picture() {
   canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(answer.pixels), answer.width, answer.height), 0, 0);
   frame_ms = turning ? [...frame_ms.slice(-9), performance.now() - start] : [];
   shown = { ...answer, scene, flags };
+  const { up } = answer.report.view;
+  if (up !== state.up && scene === state.scene) {
+    state = { ...state, up };
+    if (state.lights) set_state(state);
+  }
   if (!marked) say_facts();
   show_lobes();
 }
@@ -253,7 +258,9 @@ $("module").addEventListener("change", () => {
 attach_orbit($("picture"), (change) => {
   if (shown?.scene !== state.scene) return;  // the scene that is turned is not drawn yet
   const { view } = shown.report;
-  set_state({ ...state, view: view_text(change(view_of(state) || view, view.radius)) }, true);
+  const along = (turn, { position, target, fov }) => ({ position: turn(position), target: turn(target), fov });
+  const next = change(along(kUpright[view.up], view_of(state) || view), view.radius);
+  set_state({ ...state, view: view_text(along(kBack[view.up], next)) }, true);
 });
 $("open").addEventListener("click", () => $("files").click());
 $("files").addEventListener("change", (event) => take_files([...event.target.files].map((file) => ({ name: file.name, file }))));

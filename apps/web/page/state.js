@@ -1,7 +1,7 @@
 // What the page shows, as one flat record, and its two other forms: the flags of `halflit render`, and the part of a link after the #.
 // kLibrary holds the library's own tables (assemble.mjs).
 const kDefaults = {
-  scene: "demo", size: "640x360", samples: 4, view: "", time: 0,
+  scene: "demo", size: "640x360", samples: 4, view: "", time: 0, up: "y",
   lobe: "", wrap: kLibrary.usual_wrap, power: "", normalize: false,
   specular: "blinn", specular_normalize: true,
   scene_lights: true, lights: "", shadows: "soft-split", sun_size: 0, sky_shadows: 1,
@@ -41,10 +41,16 @@ function lights_text(lights) {
   return lights.map((l) => [l.azimuth, l.elevation, l.intensity, l.color].join(",")).join(";");
 }
 
-function light_flag(light) {
+// Quarter turns that take an axis of the file, which points up, to +y, and back.
+const kUpright = { x: ([x, y, z]) => [-y, x, z], y: (v) => v, z: ([x, y, z]) => [x, z, -y],
+  "-x": ([x, y, z]) => [y, -x, z], "-y": ([x, y, z]) => [x, -y, -z], "-z": ([x, y, z]) => [x, -z, y] };
+const kBack = { ...kUpright, x: kUpright["-x"], z: kUpright["-z"], "-x": kUpright.x, "-z": kUpright.z };
+
+// Angles go by the model's up.
+function light_flag(light, up) {
   const az = (light.azimuth * Math.PI) / 180, el = (light.elevation * Math.PI) / 180;
   const from = [Math.sin(az) * Math.cos(el), Math.sin(el), Math.cos(az) * Math.cos(el)];
-  const direction = from.map((x) => digits(Math.round(-x * 1e4) / 1e4)).join(",");
+  const direction = kBack[up](from).map((x) => digits(Math.round(-x * 1e4) / 1e4)).join(",");
   return `directional:dir=${direction}:color=${light.color}:intensity=${digits(light.intensity)}`;
 }
 
@@ -86,7 +92,7 @@ function flags_of(state) {
   if (state.specular !== kDefaults.specular) add("--specular", state.specular);
   if (!state.specular_normalize) add("--specular-normalize", "off");
   if (!state.scene_lights) flags.push("--no-scene-lights");
-  for (const light of lights_of(state)) add("--light", light_flag(light));
+  for (const light of lights_of(state)) add("--light", light_flag(light, state.up));
   if (state.shadows !== kDefaults.shadows) add("--shadows", state.shadows);
   if (state.sun_size > 0) add("--sun-size", digits(state.sun_size));
   if (state.sky_shadows !== 1) add("--sky-shadows", state.sky_shadows);
@@ -121,6 +127,7 @@ function link_of(state) {
 // Texts that a link may give; the others are free. Control characters are refused in all of them.
 const kAllowed = {
   size: (text) => /^\d+(x\d+)?$/.test(text),
+  up: (text) => Object.hasOwn(kUpright, text),
   lobe: (text) => text === "" || lobe_model(text) !== undefined,
   specular: (text) => kLibrary.specular.includes(text),
   shadows: (text) => kLibrary.shadows.includes(text),

@@ -43,8 +43,8 @@ struct Camera {
     float aspect = 0.0f;             ///< perspective: width / height that the view is made for; 0: that of the picture
     float half_height = 1.0f;        ///< orthographic: half the height of the view
     float half_width = 0.0f;         ///< orthographic: half its width; 0: from the picture's aspect
-    float near_z = 0.1f;             ///< distance along -z from which on things are drawn; > 0 for perspective
-    float far_z = 0.0f;              ///< distance up to which they are drawn, > near_z; 0: no far limit (perspective only)
+    float near_z = 0.0f;             ///< distance along -z from which on things are drawn; perspective, 0: that of completed()
+    float far_z = 0.0f;              ///< distance up to which they are drawn; one that is not above near_z: no limit
     /// in place of fov_y_rad, aspect, half_height and half_width: the picture's sides, whatever its aspect, so pixels need not be square
     std::optional<ViewSides> sides{};
 
@@ -85,6 +85,10 @@ inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},  
 /// Place of a camera (Camera::world_from_camera) at a distance from `target`, which it looks at. The angles are those of ViewSettings. From
 /// straight above or below, the picture's up is that of nearby elevations. Angles that are not finite count as 0.
 [[nodiscard]] HALFLIT_API Mat4 orbit(Vec3d target, double azimuth_deg, double elevation_deg, double distance);
+
+/// The camera with what it leaves to the scene, whose box is `scene`: the near plane of a perspective camera whose near_z is 0 is half way
+/// to the nearest corner of the box, or 1e-4 of the scene's size if that is more; 0.1 for an empty box. Frames are drawn by it.
+[[nodiscard]] HALFLIT_API Camera completed(Camera camera, const Bounds& scene);
 
 /// Fails (usage) for a camera whose world_from_camera mirrors, or whose sides are not in order: it would show things inside out.
 [[nodiscard]] HALFLIT_API Result<void> check_camera(const Camera& camera);

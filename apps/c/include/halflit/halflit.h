@@ -10,8 +10,10 @@
 //   (usage). Structs without an init function are results: set their size, the call fills in the rest. Reserved members are 0.
 // - Memory: Arrays and strings that are handed over are copied, or used during the call alone. Pictures are drawn into the caller's memory.
 // - Numbers: Truth is an int32_t: 0 or not. Strings are UTF-8. Indices begin at 0. A matrix is 16 floats, column after column; points are
-//   columns. The world is right-handed with y up, or as halflit_scene_set_up says. Colours are linear light with Rec. 709 primaries, if
-//   nothing else is said.
+//   columns. Colours are linear light with Rec. 709 primaries, if nothing else is said.
+// - Coordinates: All that is given and told, cameras, lights, instances, boxes and planes, has the coordinates of the scene's file, or of
+//   the caller's arrays, which are right-handed, in the file's unit. The axis that points up (HALFLIT_UP) decides what views, and the light
+//   from above, call up; it turns nothing.
 // - Threads: Different scenes and renderers may be used by different threads at once. Several renderers may draw one scene at once; a call
 //   that would change it meanwhile fails (usage). A renderer draws one frame at a time. Destroy nothing that is in use.
 #ifndef HALFLIT_HALFLIT_H
@@ -82,9 +84,9 @@ typedef struct halflit_load_options {
     const char* animation;
     double time_s;            ///< time of the pose, seconds; before an animation's first key and after its last one, these are drawn (0)
     int32_t keep_animations;  ///< keep what halflit_scene_pose() needs (0)
-    int32_t up;               ///< HALFLIT_UP: the scene is turned so that this axis becomes y (by format)
-    /// Moves a scene that is far from the origin to it, and scales a tiny or huge one, so that float32 keeps its shape (1). See
-    /// halflit_scene_get_placement.
+    int32_t up;               ///< HALFLIT_UP: of the model; coordinates stay the file's (by format)
+    /// Draws a scene that is far from the origin at the origin, and a tiny or huge one in another size, so that float32 keeps its shape.
+    /// Coordinates stay the file's (1).
     int32_t recentre;
     float crease_deg;  ///< files without normals but glTF: smooth across edges up to this angle, twice as much in noisy scans (30)
     int32_t strict;    ///< refuse a file of which something cannot be drawn: textures, animations, faces with bad indices (0)
@@ -134,12 +136,29 @@ HALFLIT_C_API int32_t halflit_scene_load(const char* path, const halflit_load_op
 /// The same from `count` bytes. name is for messages. base_dir is the folder of files that it refers to; if it is null, none is read.
 HALFLIT_C_API int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* name, const char* base_dir,
                                                 const halflit_load_options* options, halflit_scene** scene);
+/// Adds a file, posed as options say, to a scene: its meshes, materials, textures, cameras, lights and nodes come after those that are
+/// there. world_from_file: 16 doubles, column after column, that place it, cameras and lights too; null: the identity. Coordinates are the
+/// file's, whatever its up. A scene without content, whose up was not set, takes that of the file. first, count: the instances that were
+/// added; may be null. Fails (usage) for keep_animations.
+HALFLIT_C_API int32_t halflit_scene_add_file(halflit_scene* scene, const char* path, const halflit_load_options* options,
+                                             const double* world_from_file, int32_t* first, int32_t* count);
+/// The same from bytes: see halflit_scene_load_memory.
+HALFLIT_C_API int32_t halflit_scene_add_file_memory(halflit_scene* scene, const void* bytes, size_t byte_count, const char* name,
+                                                    const char* base_dir, const halflit_load_options* options,
+                                                    const double* world_from_file, int32_t* first, int32_t* count);
 /// Makes the built-in demo scene, which has lights and a camera.
 HALFLIT_C_API int32_t halflit_scene_create_demo(halflit_scene** scene);
-/// Sets the axis that points up in the caller's world: everything that is given and told from then on is in that world: matrices, lights,
-/// cameras, boxes, and the planes of normals and positions. up: HALFLIT_UP; by default y. For a scene without instances, lights and
-/// cameras.
+/// Sets the axis that points up in a scene of arrays: named views, angles, the ground, the light from above and environments go by it. up:
+/// HALFLIT_UP; by default y. For a scene without instances, lights and cameras.
 HALFLIT_C_API int32_t halflit_scene_set_up(halflit_scene* scene, int32_t up);
+/// Takes the bytes of a file, which are there during the call alone.
+typedef void (*halflit_write)(void* user, const void* bytes, size_t count);
+/// Hands over the scene as bytes, for a copy or for another process: all that it has, in its present state, but what
+/// halflit_scene_pose() needs. write is called once. Fails (usage) for an environment whose image was not kept, and for a studio.
+HALFLIT_C_API int32_t halflit_scene_save(const halflit_scene* scene, halflit_write write, void* user);
+/// Replaces all that a scene has by that of another one, from its bytes. What halflit_scene_pose() needs stays: load the same file before,
+/// to pose it later. Fails (bad input) for bytes of another version of the library, or that are damaged.
+HALFLIT_C_API int32_t halflit_scene_restore(halflit_scene* scene, const void* bytes, size_t count);
 /// Frees a scene. Null is allowed.
 HALFLIT_C_API void halflit_scene_destroy(halflit_scene* scene);
 
@@ -153,8 +172,8 @@ HALFLIT_C_API int32_t halflit_scene_get_animation(const halflit_scene* scene, in
 /// so. animation: as in halflit_load_options. Meshes, instances, cameras, lights and factors of materials that the file's animations move
 /// are set; all else stays as the caller has set it.
 HALFLIT_C_API int32_t halflit_scene_pose(halflit_scene* scene, const char* animation, double time_s);
-/// Where a file's model is drawn: a point p of it at (p' - origin) * scale, where p' is p turned so that `up`, a HALFLIT_UP, becomes y.
-/// Each pointer may be null.
+/// The scene's HALFLIT_UP, and how float32 is spared: a point p is drawn at (p' - origin) * scale, where p' is p turned so that `up`
+/// becomes y. No other function shows it: they take and give the file's coordinates. Each pointer may be null.
 HALFLIT_C_API int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3], double* scale, int32_t* up);
 /// Parts of a scene that have a name.
 enum { HALFLIT_PART_NODE = 0, HALFLIT_PART_INSTANCE = 1, HALFLIT_PART_MESH = 2, HALFLIT_PART_MATERIAL = 3, HALFLIT_PART_CAMERA = 4 };
@@ -177,6 +196,8 @@ typedef struct halflit_node {
 HALFLIT_C_API int32_t halflit_scene_get_node(const halflit_scene* scene, int32_t index, halflit_node* node);
 /// World-space box of everything drawn; min is infinity and max -infinity if there is nothing. Takes time in proportion to the vertices.
 HALFLIT_C_API int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]);
+/// The same in double, for scenes that are far from the origin.
+HALFLIT_C_API int32_t halflit_scene_get_box(const halflit_scene* scene, double min[3], double max[3]);
 
 // ---- textures and materials --------------------------------------------------------------------------------------------
 
@@ -379,6 +400,7 @@ typedef struct halflit_instance {
     int32_t node;                 ///< of the file; -1: none. Is not set
     float color[4];               ///< linear, times the material's base colour; alpha counts where that masks or blends (1, 1, 1, 1)
     float world_from_object[16];  ///< (the identity)
+    double place_rest[3];         ///< added to the place in world_from_object, where float32 is too coarse (0, 0, 0)
 } halflit_instance;
 HALFLIT_C_API int32_t halflit_instance_init(halflit_instance* instance, size_t size);
 
@@ -388,6 +410,9 @@ HALFLIT_C_API int32_t halflit_scene_add_instance(halflit_scene* scene, int32_t m
 /// Places a mesh `count` times, by 16 floats each. The indices follow each other; first may be null.
 HALFLIT_C_API int32_t halflit_scene_add_instances(halflit_scene* scene, int32_t mesh, int32_t count, const float* world_from_object,
                                                   int32_t* first);
+/// The same by doubles, for scenes that are far from the origin.
+HALFLIT_C_API int32_t halflit_scene_add_instances_double(halflit_scene* scene, int32_t mesh, int32_t count, const double* world_from_object,
+                                                         int32_t* first);
 /// Reads an instance. Set instance->size before.
 HALFLIT_C_API int32_t halflit_scene_get_instance(const halflit_scene* scene, int32_t index, halflit_instance* instance);
 /// Replaces an instance. The next frame recomputes what depends on it alone.
@@ -397,6 +422,9 @@ HALFLIT_C_API int32_t halflit_scene_place_instance(halflit_scene* scene, int32_t
 /// Moves `count` instances by 16 floats each. indices may be null: 0, 1, 2 and so on. After an error none has moved.
 HALFLIT_C_API int32_t halflit_scene_place_instances(halflit_scene* scene, const int32_t* indices, int32_t count,
                                                     const float* world_from_object);
+/// The same by doubles, for scenes that are far from the origin.
+HALFLIT_C_API int32_t halflit_scene_place_instances_double(halflit_scene* scene, const int32_t* indices, int32_t count,
+                                                           const double* world_from_object);
 /// Removes an instance; halflit_scene_add_instance may use its index again.
 HALFLIT_C_API int32_t halflit_scene_remove_instance(halflit_scene* scene, int32_t index);
 /// Adds a ground that is invisible but for the shadows on it: a horizontal square below the lowest point of all that is drawn. Views are
@@ -414,12 +442,13 @@ typedef struct halflit_camera {
     float fov_y_rad;                ///< perspective: full vertical angle, 0 to pi
     float aspect;                   ///< perspective: width / height that the view is made for; 0: that of the picture
     float half_height, half_width;  ///< orthographic: half the view's size, world units; half_width 0: from the picture's aspect
-    float near_z;                   ///< above 0 for perspective
-    float far_z;                    ///< above near_z; 0: no limit (perspective alone)
+    float near_z;                   ///< nothing nearer is drawn; perspective: 0: chosen by the scene, for each frame
+    float far_z;                    ///< nothing farther is drawn; one that is not above near_z: no limit
     /// left, right, bottom, top: tangents of the angles from the axis, or (orthographic) distances from it, in place of fov_y_rad, aspect,
     /// half_height and half_width, whatever the picture's aspect; all 0: none
     float sides[4];
     int32_t reserved;
+    double place_rest[3];  ///< added to the place in world_from_camera, where float32 is too coarse (0, 0, 0)
 } halflit_camera;
 HALFLIT_C_API int32_t halflit_camera_init(halflit_camera* camera, size_t size);
 
@@ -431,7 +460,8 @@ HALFLIT_C_API int32_t halflit_camera_look_at(const float eye[3], const float tar
 /// rotation.
 HALFLIT_C_API int32_t halflit_camera_from_intrinsics(const double k[9], int32_t width, int32_t height, const double rotation[9],
                                                      const double translation[3], double first_pixel, halflit_camera* camera);
-/// A view of the whole scene. aspect: width / height of the picture. azimuth_deg: around +y, 0 from +z, positive from the right.
+/// A view of the whole scene. aspect: width / height of the picture. azimuth_deg: around the vertical, 0 from the front, which is +z with y
+/// up and -y with z up, positive from the right.
 /// elevation_deg: above the horizon, -90 to 90. zoom: 2 makes things twice as large. 35, 20 and 1 give the usual three-quarter view.
 HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float aspect, float azimuth_deg, float elevation_deg, float zoom,
                                            halflit_camera* camera);
@@ -440,7 +470,7 @@ HALFLIT_C_API int32_t halflit_camera_frame(const halflit_scene* scene, float asp
 typedef struct halflit_view {
     size_t size;
     double margin_x, margin_y;  ///< shares of half the picture's width and height that stay free at each side, 0 to 0.9 (0.13)
-    float azimuth_deg;          ///< around the vertical: 0 from the front (+z), positive from the right (35)
+    float azimuth_deg;          ///< around the vertical: 0 from the front (+z with y up, -y with z up), positive from the right (35)
     float elevation_deg;        ///< above the horizon, -90 to 90 (20)
     float zoom;                 ///< 2 makes things twice as large (1)
     float fov_y_deg;            ///< perspective: full vertical angle before the zoom (35)
@@ -483,6 +513,7 @@ typedef struct halflit_light {
     float inner_cone_rad, outer_cone_rad;  ///< spot: full light up to the first angle from the axis, none from the second on
     float cone_power;                      ///< spot: factor cos(angle from the axis)^cone_power, 0 to 1e5
     float shadow_radius;                   ///< size for soft shadows. Directional: angle from middle to rim, radians; others: world units
+    double position_rest[3];               ///< added to position, where float32 is too coarse
 } halflit_light;
 HALFLIT_C_API int32_t halflit_light_init(halflit_light* light, size_t size);
 
@@ -507,7 +538,7 @@ HALFLIT_C_API int32_t halflit_scene_clear_lights(halflit_scene* scene);
 /// Decisions about an environment that are made once, when it is set.
 typedef struct halflit_environment_options {
     size_t size;
-    double rotate_rad;     ///< about +y, counter-clockwise seen from above
+    double rotate_rad;     ///< about the vertical, counter-clockwise seen from above
     int32_t extract_suns;  ///< make directional lights of suns where that is more exact; default 1
     int32_t keep_image;    ///< for halflit_settings.background_environment and HALFLIT_ACCURACY_REFERENCE; default 1
     int32_t calibrated;    ///< for halflit_scene_set_environment: made for exposure 1; default 0: the unit is not known
@@ -516,8 +547,8 @@ typedef struct halflit_environment_options {
 HALFLIT_C_API int32_t halflit_environment_options_init(halflit_environment_options* options, size_t size);
 
 /// Lights the scene by an image of the light from all directions, in the place of ambient light and of an earlier environment: three floats
-/// a pixel (linear red, green, blue), finite and not negative. Row 0 is straight up, the middle column is along -z, the column at three
-/// quarters of the width along +x. options may be null: the defaults. Takes about 0.2 s for 1024 x 512 pixels.
+/// a pixel (linear red, green, blue), finite and not negative. Row 0 is straight up, the middle column is along -z with y up (+y with z
+/// up), the column at three quarters of the width along +x. options may be null: the defaults. Takes about 0.2 s for 1024 x 512 pixels.
 HALFLIT_C_API int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, int32_t width, int32_t height,
                                                     const halflit_environment_options* options);
 /// The same from a file (.hdr, .pfm or .exr).
@@ -623,7 +654,8 @@ typedef struct halflit_settings {
     float edge_angle_deg;
     /// of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)
     float edge_width;
-    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)
+    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it. In 8-bit pictures, dark
+    /// lines are light grey on surfaces that are as dark (0, 0, 0)
     float edge_color[3];
     /// transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1 to 2^20; more
     /// end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
@@ -839,8 +871,6 @@ HALFLIT_C_API uint64_t halflit_pixel_hash(const void* bytes, size_t count);
 /// from floats. The file is either old or new, never half written. "-" is PNG on standard output. Fails (usage) for a target with
 /// region_alone.
 HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target* target);
-/// Takes the bytes of a file, which are there during the call alone.
-typedef void (*halflit_write)(void* user, const void* bytes, size_t count);
 /// Encodes the target's pixels as halflit_write_image does. format: "png", "jpg" and so on. write is called once, with the whole file.
 HALFLIT_C_API int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
 

@@ -10,10 +10,13 @@ sys.modules["pyrender"] = pyrender.
 trimesh need not be installed: Mesh.from_trimesh() and Scene.from_trimesh_scene() use what the objects offer.
 
 What differs:
-    Viewer, Renderer: there is no window, and no context of OpenGL; both say so.
+    Viewer, Renderer: there is no window, and no context of OpenGL; both say so. Shaders are not run: of a script's own
+        (OffscreenRenderer._renderer._program_cache) those that show normals are known, and others are refused. Normals of back faces that
+        are drawn point to the camera.
     Shading: highlights are GGX, with the light that microfacets reflect several times: dielectrics are as bright as in pyrender, the grey
-        of meshes without a material is 1.13 times as bright, and a metal of roughness 1 is 2.4 times. Vertex colours are factors on the
-        base colour, not on highlights. Occlusion textures darken ambient light alone. Back faces that are drawn are lit from their side.
+        of meshes without a material is 1.13 times as bright, and a metal of roughness 1 is 2.4 times. Under ambient light alone colours
+        are pyrender's; beside lights, it has highlights. Vertex colours are factors on the base colour, not on highlights. Occlusion
+        textures darken ambient light alone. Back faces that are drawn are lit from their side.
     Light: all lights shine, not the nearest four of each type. A SHADOWS_ flag of one of the scene's lights lets all lights cast
         shadows, point lights too. An emissive factor counts once.
     alphaMode "MASK" cuts out by alphaCutoff. What blends is sorted by triangles, and blends in linear light.
@@ -25,7 +28,8 @@ What differs:
     Arrays that are set anew are uploaded again. A texture of RGB has an alpha of 1. SpecularGlossinessMaterial is drawn, without its
         specularGlossinessTexture.
 """
-from . import camera, constants, light, material, mesh, node, offscreen, primitive, sampler, scene, texture, viewer
+from . import camera, constants, image, light, material, mesh, node, offscreen, primitive, renderer, sampler, scene, shader_program
+from . import texture, utils, version, viewer
 from .camera import Camera, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera
 from .constants import GLTF, RenderFlags, TextAlign
 from .light import DirectionalLight, Light, PointLight, SpotLight
@@ -37,12 +41,13 @@ from .primitive import Primitive
 from .sampler import Sampler
 from .scene import Scene
 from .texture import Texture
+from .version import __version__
 from .viewer import Renderer, Viewer
 
-__version__ = "0.1.45"
 __all__ = [
     *("Camera", "PerspectiveCamera", "OrthographicCamera", "IntrinsicsCamera", "Light", "PointLight", "DirectionalLight", "SpotLight"),
     *("Sampler", "Texture", "Material", "MetallicRoughnessMaterial", "SpecularGlossinessMaterial", "Primitive", "Mesh", "Node", "Scene"),
     *("Renderer", "Viewer", "OffscreenRenderer", "RenderFlags", "TextAlign", "GLTF", "__version__"),
-    *("camera", "constants", "light", "material", "mesh", "node", "offscreen", "primitive", "sampler", "scene", "texture", "viewer"),
+    *("camera", "constants", "image", "light", "material", "mesh", "node", "offscreen", "primitive", "renderer", "sampler", "scene"),
+    *("shader_program", "texture", "utils", "version", "viewer"),
 ]

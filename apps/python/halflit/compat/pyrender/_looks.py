@@ -5,6 +5,8 @@ from typing import Any, Callable, Dict, NamedTuple, Optional
 
 import numpy as np
 
+from halflit._types import TextureEncoding
+
 from ._shapes import is_surface
 from ._values import Array
 from .constants import GLTF
@@ -27,16 +29,22 @@ _FILTERS = {
     GLTF.LINEAR_MIPMAP_LINEAR: ("linear", "linear"),
 }
 #: Gives the index of a texture that is uploaded with these colours.
-Uploads = Callable[[Texture, str], int]
+Uploads = Callable[[Texture, TextureEncoding], int]
 
 
 class Style(NamedTuple):
     """How a scene is uploaded."""
 
-    kind: str  # "lit", "flat" (base colours alone) or "depth" (nothing blends)
+    kind: str  # "lit", "ambient" (without lights), "flat" (base colours alone) or "depth" (nothing blends)
     wire: str  # edges alone: "own" (of the materials that say so), "flip" (of all others), "all" or "none"
     back: bool  # back faces of all materials are drawn
     normals: int  # flags of the normals that lines show
+
+
+    @property
+    def is_shaded(self) -> bool:
+        """Colours are light."""
+        return self.kind in ("lit", "ambient")
 
 
 def light_of(shares: Array) -> Array:
@@ -77,7 +85,7 @@ def colors_of(primitive: Primitive, style: Style) -> Optional[Array]:
     if colors is None or style.kind == "depth":
         return None
     colors = np.clip(np.nan_to_num(colors), 0, 1)
-    if style.kind == "lit" and is_unlit(primitive, style):
+    if style.is_shaded and is_unlit(primitive, style):
         colors[:, :3] = light_of(colors[:, :3])  # they appear in the picture as given
     return colors
 
@@ -93,8 +101,10 @@ def look(primitive: Primitive, style: Style, upload: Uploads) -> Dict[str, Any]:
     base = np.clip(getattr(material, material._base, np.ones(4)), 0, 1).astype(np.float64)
     if is_unlit(primitive, style):
         members["unlit"] = True
-        if style.kind == "lit":
+        if style.is_shaded:
             base[:3] = light_of(base[:3])
+    elif style.kind == "ambient":  # which the base colour reflects whole, of metals too, without a highlight
+        members["emissive"] = material.emissiveFactor.tolist()
     elif style.kind == "lit":
         members.update(_reflection(material), emissive=material.emissiveFactor.tolist())
         if isinstance(material, MetallicRoughnessMaterial):
@@ -122,12 +132,12 @@ def _reflection(material: Material) -> Dict[str, Any]:
 def _pictures(material: Material, style: Style) -> Any:
     """Member of a halflit material, texture, and its colours."""
     base = getattr(material, material._base_texture, None)
-    if style.kind == "lit":
+    if style.is_shaded:
         yield "base_color_texture", base, "srgb_by_alpha" if material.alphaMode != "OPAQUE" and material.is_transparent else "srgb"
         yield "normal_texture", material.normalTexture, "normal"
         yield "occlusion_texture", material.occlusionTexture, "linear"
         yield "emissive_texture", material.emissiveTexture, "srgb"
-        if isinstance(material, MetallicRoughnessMaterial):
+        if isinstance(material, MetallicRoughnessMaterial) and style.kind == "lit":
             yield "metallic_roughness_texture", material.metallicRoughnessTexture, "linear"
     elif style.kind == "flat" or material.alphaMode == "MASK":
         yield "base_color_texture", base, "linear"

@@ -8,6 +8,7 @@ import numpy as np
 
 from halflit._material import Material
 from halflit._scene import Scene
+from halflit._types import LightType, TextureEncoding
 
 from . import _shapes
 from ._looks import GAMMA, Style, blends, colors_of, is_wireframe, look, texels_of
@@ -112,7 +113,7 @@ class World:
             material = self.scene.add_material(**members)
         self._meshes[part] = self.scene.add_mesh(material=material, place=False, **shape), material
 
-    def _texture(self, texture: Texture, color: str) -> int:
+    def _texture(self, texture: Texture, color: TextureEncoding) -> int:
         key = (texture._version, color)
         found = self._textures.get((texture, color))
         if found is not None and found[1] == key:
@@ -154,10 +155,10 @@ class World:
         if not len(moved):
             return
         # Scene.set_instances() without its checks, which take longer than the call: Node has looked at the matrices.
-        places = np.ascontiguousarray(matrices[moved].transpose(0, 2, 1), np.float32)
+        places = np.ascontiguousarray(matrices[moved].transpose(0, 2, 1))
         indices = self._indices[moved]
         change: Any = self.scene._change
-        change("scene_place_instances", indices.ctypes.data, len(places), places.ctypes.data)
+        change("scene_place_instances_double", indices.ctypes.data, len(places), places.ctypes.data)
         self._matrices = matrices
 
     # ---- light ----------------------------------------------------------------------------------------------------------
@@ -180,7 +181,7 @@ class World:
                 members["direction"] = (-pose[:3, 2]).tolist()
             if isinstance(light, SpotLight):
                 members.update(inner_cone_rad=light.innerConeAngle, outer_cone_rad=light.outerConeAngle)
-            kind = "point" if isinstance(light, PointLight) else "spot" if isinstance(light, SpotLight) else "directional"
+            kind: LightType = "point" if isinstance(light, PointLight) else "spot" if isinstance(light, SpotLight) else "directional"
             self.scene.add_light(kind, **members)
 
 

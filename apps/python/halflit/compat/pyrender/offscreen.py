@@ -17,6 +17,7 @@ from ._world import World
 from .constants import SHADOW_TEX_SZ, RenderFlags
 from .light import DirectionalLight, Light, PointLight
 from .node import Node
+from .renderer import Backend
 from .scene import Scene
 
 #: sRGB code -> code of pyrender, which are 255 times light to the power of 1 / 2.2.
@@ -34,6 +35,7 @@ class OffscreenRenderer:
         self.viewport_width = viewport_width
         self.viewport_height = viewport_height
         self.point_size = point_size
+        self._renderer = Backend()
         self._kept: weakref.WeakKeyDictionary[Scene, _Kept] = weakref.WeakKeyDictionary()
 
     @property
@@ -82,7 +84,9 @@ class OffscreenRenderer:
         poses = kept.poses.of(scene)
         projection = np.asarray(node.camera.get_projection_matrix(width=size[0], height=size[1]), np.float64)
         view = kept.view_of(projection, poses[kept.poses.rows[node]])
-        return _Frame(scene, kept, poses, view, size, self._point_size).draw(int(flags), seg_node_map)
+        frame, flags = _Frame(scene, kept, poses, view, size, self._point_size), int(flags)
+        space = None if flags & RenderFlags.DEPTH_ONLY else self._renderer.space_of_normals()
+        return frame.draw(flags, seg_node_map) if space is None else frame.normals(flags, space)
 
     def delete(self) -> None:
         """Frees what was uploaded. The next picture uploads it again."""
@@ -120,7 +124,8 @@ class _Frame:
             return self.segmentation(seg_node_map or {}, back, bool(flags & RenderFlags.RGBA))
         wire = "flip" if flags & RenderFlags.FLIP_WIREFRAME else "own"
         wire = "none" if flags & RenderFlags.ALL_SOLID else "all" if flags & RenderFlags.ALL_WIREFRAME else wire
-        style = Style("flat" if flags & RenderFlags.FLAT else "lit", wire, back, 0)
+        kind = "flat" if flags & RenderFlags.FLAT else "lit" if self.lights else "ambient"
+        style = Style(kind, wire, back, 0)
         world = self.world(style)
         shown = world
         lines = flags & (RenderFlags.VERTEX_NORMALS | RenderFlags.FACE_NORMALS)
@@ -144,7 +149,7 @@ class _Frame:
         return world
 
     def run(self, world: World, **options: Any) -> Pass:
-        ambient = self.scene.ambient_light if world.style.kind == "lit" else np.zeros(3, np.float32)
+        ambient = self.scene.ambient_light if world.style.is_shaded else np.zeros(3, np.float32)
         return Pass(world, self.view, self.size, ambient, {**self.sizes, **options})
 
     def depth_of(self, world: World) -> Array:
@@ -155,6 +160,19 @@ class _Frame:
         if abs(self.view.scale - 1) > 1e-6:
             depth /= np.float32(self.view.scale)  # in the camera's space
         return depth
+
+    def normals(self, flags: int, space: str) -> Tuple[Array, Array]:
+        """Normals of the vertices in the place of colours: (n + 1) / 2 as shares of 255."""
+        world = self.world(Style("depth", "none", bool(flags & RenderFlags.SKIP_CULL_FACES), 0))
+        planes = self.run(world).planes("vertex_normal", "depth")
+        normals, is_seen = planes["vertex_normal"], planes["depth"] < 3e38
+        if space == "view":
+            normals = normals @ self.view.camera.matrix[:3, :3].astype(np.float32)
+        colors = np.empty((*is_seen.shape, 4), np.uint8)
+        colors[:] = np.floor(self.background(flags) * 255 + 0.5)
+        colors[is_seen, :3] = np.clip(normals[is_seen] * 127.5 + 128, 0, 255)
+        colors[is_seen, 3] = 255
+        return colors if flags & RenderFlags.RGBA else np.ascontiguousarray(colors[:, :, :3]), self.finite(planes["depth"])
 
     def segmentation(self, colors: Dict[Node, Any], back: bool, has_alpha: bool) -> Tuple[Array, Array]:
         world = self.world(Style("depth", "none", back, 0), [node for node in self.nodes if node in colors])
@@ -183,7 +201,8 @@ class _Frame:
 
     def lit(self, world: World, flags: int) -> Array:
         background, codes, tables = _background(tuple(self.background(flags)))
-        options: Dict[str, Any] = {"samples": self.samples(flags), "background": background, "tone_curve": "none", "specular": "ggx"}
+        options: Dict[str, Any] = {"samples": self.samples(flags), "background": background, "tone_curve": "none"}
+        options["specular"] = "ggx" if world.style.kind == "lit" else "none"
         shadows = any(flags & _shadow_flag(node.light) for node in self.lights if node.light is not None)
         options.update(shadows="hard" if shadows else "off", shadow_size=SHADOW_TEX_SZ if shadows else 0)
         pixels = self.run(world, **options).pixels(np.uint8)
