@@ -58,6 +58,7 @@ public:
             to_.world = World(std::move(placement));
         }
         if (is_first) to_.scene.faces_back = from_.scene.faces_back;
+        if (is_first || scene.frame_work > 0) to_.scene.frame_work += from_.scene.frame_work;
         if (scene.lights.empty()) to_.scene.calibrated = from_.scene.calibrated;
         to_.changes.structure();
         add_geometry();

@@ -223,7 +223,7 @@ void visit(Io& io, Archive& a) {
     Scene& s = a.scene;
     all(io, a.version, a.struct_size);
     all(io, s.lights, s.ambient, s.suns, s.sun_shadow_radius_rad, s.calibrated, s.meshes, s.instances, s.materials, s.textures, s.cameras,
-        s.faces_back);
+        s.faces_back, s.frame_work);
     all(io, a.environment, a.warnings, a.animations, a.placement.origin, a.placement.scale, a.placement.mesh_scales, a.placement.up);
     all(io, a.up_is_set, a.nodes, a.node_of_instance, a.instance_names, a.free_meshes, a.free_instances, a.free_lights, a.free_textures);
     all(io, a.file_meshes, a.added_without_normals, a.given_meshes);

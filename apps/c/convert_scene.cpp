@@ -67,6 +67,7 @@ halflit_load_options to_c(const LoadOptions& from) {
     options.crease_deg = from.crease_deg;
     options.recentre = from.recentre;
     options.plate = from.plate;
+    options.max_work = from.limits.max_work;
     return options;
 }
 
@@ -105,6 +106,7 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     options.plate = read->plate;
     options.limits.max_file_bytes = read->max_file_bytes;
     options.limits.max_total_bytes = read->max_total_bytes;
+    options.limits.max_work = read->max_work;
     options.limits.max_json_tokens = read->max_json_tokens;
     options.limits.max_texture_bytes = read->max_texture_bytes;
     options.limits.max_texture_pixels = read->max_texture_pixels;

@@ -63,6 +63,7 @@ void halflit_scene::put_mesh(std::size_t index, Mesh given) {
 }
 
 void halflit_scene::put_given_mesh(std::size_t index, Mesh given, bool smooth) {
+    scene.frame_work = 0;  // there is more than the file's
     if (given.normals.empty())
         added_without_normals.insert_or_assign(index, smooth);
     else
@@ -78,6 +79,7 @@ void halflit_scene::list_instances_of_nodes() {
 }
 
 void halflit_scene::put_instance(std::size_t index, const Instance& given) {
+    scene.frame_work = 0;  // there is more than the file's
     if (index == scene.instances.size()) {
         changes.structure();
         scene.instances.emplace_back();

@@ -105,6 +105,7 @@ typedef struct halflit_load_options {
     int32_t max_texture_side;           ///< texels (16384)
     int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG (64)
     int32_t plate;                      ///< plate of a slicer's project (3MF); 0: all (1)
+    uint64_t max_work;                  ///< of loading, and of each frame beside its pixels, ns of one core by estimate; 0: by the file's size (0)
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
