@@ -37,8 +37,8 @@ ENUMERATIONS = {"kAccuracyNames": "ACCURACY", "kRateNames": "RATE", "kTextureDet
                 "kShadowModeNames": "SHADOWS", "kToneCurveNames": "TONE", "kEdgeChoiceNames": "EDGES",
                 "kHiddenEdgeNames": "HIDDEN_EDGES"}
 # Setting -> members behind it that no row of the table has.
-BY_HAND = {"edge_width": ["    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it. In 8-bit pictures, dark",
-                          "    /// lines are light grey on surfaces that are as dark (0, 0, 0)", "    float edge_color[3];"]}
+BY_HAND = {"edge_width": ["    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)",
+                          "    float edge_color[3];"]}
 UNLIMITED = ("kMostScale", "kMostNumber")
 
 

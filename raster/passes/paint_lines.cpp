@@ -110,7 +110,7 @@ private:
     MemoryShare memory_;
 };
 
-/// Lays an opaque colour over a pixel of the caller's memory, by a share of 0 to 255. Codes of a dark colour are light on dark surfaces.
+/// Lays an opaque colour over a pixel of the caller's memory, by a share of 0 to 255.
 class OverPixel {
 public:
     OverPixel(Vec3f color_linear, const Output& output, const shading::ShadeKernels& shade) : color_(color_linear), output_(output) {
@@ -120,8 +120,6 @@ public:
         shade.encode_srgb8(rows[0], rows[1], rows[2], rows[3], 1.0f, packed, 1);
         output.finish_codes(packed, 1);
         std::memcpy(codes_, packed, sizeof codes_);
-        for (std::size_t c = 0; c < 3; ++c)
-            on_dark_[c] = static_cast<std::uint8_t>(is_dark(codes_) ? codes_[c] + (255 - codes_[c]) * 3 / 5 : codes_[c]);
     }
 
     void paint(int x, int y, unsigned share) const {
@@ -129,12 +127,11 @@ public:
             std::uint8_t* const p = output_.codes.at(x, y);
             const unsigned alpha = p[3], rest = 255u - share;
             const unsigned sum = 255u * share + alpha * rest;  // new alpha times 255
-            const std::uint8_t* const line = alpha == 255u && is_dark(p) ? on_dark_ : codes_;
             // Straight codes count by their alpha, premultiplied ones as they are.
             for (int c = 0; c < 3; ++c)
-                p[c] =
-                    static_cast<std::uint8_t>(output_.is_premultiplied() ? (line[c] * share + p[c] * rest + 127u) / 255u
-                                                                         : (line[c] * share * 255u + p[c] * alpha * rest + sum / 2) / sum);
+                p[c] = static_cast<std::uint8_t>(output_.is_premultiplied()
+                                                     ? (codes_[c] * share + p[c] * rest + 127u) / 255u
+                                                     : (codes_[c] * share * 255u + p[c] * alpha * rest + sum / 2) / sum);
             p[3] = static_cast<std::uint8_t>((sum + 127u) / 255u);
         }
         if (output_.linear) {
@@ -153,12 +150,9 @@ public:
     }
 
 private:
-    /// Less bright than 40 codes: lines that are as dark would not be seen there. The first and last code may be red or blue.
-    static bool is_dark(const std::uint8_t* codes) { return codes[0] + 2 * codes[1] + codes[2] < 4 * 40; }
-
     Vec3f color_;
     const Output& output_;
-    std::uint8_t codes_[4]{}, on_dark_[4]{};
+    std::uint8_t codes_[4]{};
 };
 
 }  // namespace

@@ -136,43 +136,6 @@ TEST_CASE("edges: the order of bytes, alpha and linear light are those of the ta
     CHECK(on_background > 50);
 }
 
-TEST_CASE("edges: dark lines are light on surfaces that are as dark, and on no other", "[edges]") {
-    const Vec3f line{0.003f, 0, 0};                                                                                 // code 10
-    for (const auto& [surface, is_dark] : {std::pair(0.0f, true), {0.02f, true}, {0.03f, false}, {0.5f, false}}) {  // codes 0, 39, 48, 188
-        Scene scene;
-        scene.meshes = {make_box({1, 0.4f, 0.7f})};
-        scene.meshes[0].material = 0;
-        Material& material = scene.materials.emplace_back();
-        material.base_color = {surface, surface, surface, 1}, material.unlit = true;
-        scene.instances = {{0, {}}};
-        Settings settings;
-        const Drawn bare = drawn(scene, settings);
-        settings.edges = EdgeChoice::feature;
-        settings.edge_color_linear = line;
-        for (const PixelFormat format : {PixelFormat::rgba8, PixelFormat::bgra8}) {
-            Target target;
-            target.format = format;
-            const Drawn lines = drawn(scene, settings, {}, target);
-            const std::size_t red = format == PixelFormat::rgba8 ? 0 : 2;
-            int inside = 0, outside = 0;
-            for (std::size_t at = 0; at < lines.codes.size(); at += 4) {
-                if (std::memcmp(&lines.linear[at], &bare.linear[at], 16) == 0) continue;
-                REQUIRE(lines.linear[at + 1] <= bare.linear[at + 1]);  // light that is measured has the colour that was asked
-                if (bare.codes[at + 3] == 0) {
-                    REQUIRE(int{lines.codes[at + red]} == 10);
-                    ++outside;
-                } else if (bare.codes[at + 3] == 255) {
-                    REQUIRE((is_dark ? lines.codes[at + 1] >= bare.codes[at + 1] : lines.codes[at + 1] <= bare.codes[at + 1]));
-                    inside += std::abs(int{lines.codes[at + 1]} - int{bare.codes[at + 1]}) > 40 ? 1 : 0;
-                }
-            }
-            CAPTURE(surface, inside, outside);
-            CHECK(inside > 100);
-            CHECK(outside > 100);
-        }
-    }
-}
-
 TEST_CASE("edges: the number of samples does not change the lines", "[edges]") {
     const Scene scene = some_scene();
     const Camera camera = frame_scene(scene, 1.0f * kWidth / kHeight, {});

@@ -361,9 +361,7 @@ namespace {
 
 FlagGroup line_flags(RenderOptions& o) {
     return {"Lines",
-            {{"--edge-color", "COLOR",
-              "Colour of the lines: #rgb, #rrggbb or a name (default black). Dark lines are light on surfaces that are as dark",
-              [&o](const std::string& text) {
+            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)", [&o](const std::string& text) {
                   return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
               }}}};
 }

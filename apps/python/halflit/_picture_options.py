@@ -61,7 +61,7 @@ class PictureOptions(ViewOptions, total=False):
         out: the array to draw into, (height, width, 4); rows may have gaps (a new one)
         aovs: names of AOVS, or "all" (none). Vertices are rounded to multiples of 1/256 pixel, so the picture's camera sees a
             "position" within 1/512 pixel, on each axis, of the pixel that has it
-        edge_color: of the lines of `edges`: "#rrggbb" or linear numbers (black). Dark lines are light grey on surfaces that are as dark
+        edge_color: of the lines of `edges`: "#rrggbb" or linear numbers (black)
         lobe: of materials without a lobe of their own (lambert)
 
     Settings:

@@ -70,9 +70,7 @@ struct Settings {
     HiddenEdges hidden_edges = HiddenEdges::none;  ///< edges behind surfaces
     float edge_angle_deg = 30.0f;                  ///< between the normals of two triangles, from which on their edge is a line: 0 to 180
     float edge_width = 1.5f;                       ///< of the lines, pixels, 1/4 to 64; below 1 they are paler instead
-    /// of the lines, linear; no light, exposure or tone curve changes it. In 8-bit pictures, dark lines are light grey on surfaces that
-    /// are as dark: below 40 of 255.
-    Vec3f edge_color_linear{0, 0, 0};
+    Vec3f edge_color_linear{0, 0, 0};              ///< of the lines, linear; no light, exposure or tone curve changes it
     /// transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1 to 2^20; more end the
     /// call with a limit's error: a small file can ask for millions. 0: no limit
     int max_layers = 128;

@@ -105,7 +105,7 @@ typedef struct halflit_load_options {
     int32_t max_texture_side;           ///< texels (16384)
     int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG (64)
     int32_t plate;                      ///< plate of a slicer's project (3MF); 0: all (1)
-    uint64_t max_work;                  ///< of loading, and of each frame beside its pixels, ns of one core by estimate; 0: by the file's size (0)
+    uint64_t max_work;  ///< of loading, and of each frame beside its pixels, ns of one core by estimate; 0: by the file's size (0)
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
@@ -655,8 +655,7 @@ typedef struct halflit_settings {
     float edge_angle_deg;
     /// of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)
     float edge_width;
-    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it. In 8-bit pictures, dark
-    /// lines are light grey on surfaces that are as dark (0, 0, 0)
+    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)
     float edge_color[3];
     /// transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1 to 2^20; more
     /// end the call with a limit's error: a small file can ask for millions. 0: no limit (128)
