@@ -237,6 +237,7 @@ private:
     /// v, v/vt, v//vn or v/vt/vn.
     bool read_corner(std::string_view word, Corner& corner) {
         corner = {kNone, kNone, kNone};
+        while (!word.empty() && (word.back() == ',' || word.back() == ';')) word.remove_suffix(1);
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t slash = std::min(word.find('/'), word.size());
             const std::string_view text = word.substr(0, slash);

@@ -85,6 +85,10 @@ constexpr SlotName kScalarNames[] = {{"x", px},
                                      {"confidence", scalar},
                                      {"curvature", scalar},
                                      {"texnumber", texnumber},
+                                     {"texture_id", texnumber},
+                                     {"tex_id", texnumber},
+                                     {"texture_index", texnumber},
+                                     {"texture_number", texnumber},
                                      {"label", label},
                                      {"labels", label},
                                      {"class", label},
@@ -415,6 +419,9 @@ private:
             refuse(fmt::format("element {}", element.name), "expected a list vertex_indices");
         if (!is_face && !is_strips && element.count > 0)
             builder_.document().warn(fmt::format("{} elements \"{}\" are not drawn", element.count, printable(element.name, 40)));
+        if (is_face && header_.textures.size() > 1 && !layout.has[texnumber])
+            builder_.document().warn(
+                fmt::format("has {} pictures, and its faces do not say which one they show: all show the first", header_.textures.size()));
         Row row{};
         const std::size_t first_color = soup_.colors.size();
         const auto finish_colors = [&] { layout.make_linear(std::span(soup_.colors).subspan(first_color)); };
