@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the files of a release (`./dev release`): packages, source, hashes of pixels, notes, and checksums of all of them.
 #   release.sh [--source-only] [--dirty] FOLDER     FOLDER: new, or one that an earlier run made
+# HALFLIT_SIGNING_KEY, if set, is a file with a key of ssh-keygen: SHA256SUMS.sig is its signature of SHA256SUMS (namespace: file).
 # HALFLIT_HOMEPAGE is the address of the project in the recipes; by default a placeholder.
 set -euo pipefail
 
@@ -48,7 +49,7 @@ trap 'rm -rf "$work" || true' EXIT
 
 # The files of an earlier run are replaced. Other files are an error.
 earlier=()
-if [ -e "$released/SHA256SUMS" ]; then readarray -t earlier < <(cut -c67- "$released/SHA256SUMS" && echo SHA256SUMS); fi
+if [ -e "$released/SHA256SUMS" ]; then readarray -t earlier < <(cut -c67- "$released/SHA256SUMS" && printf '%s\n' SHA256SUMS SHA256SUMS.sig); fi
 others=$(LC_ALL=C comm -23 <(find "$released" -mindepth 1 -printf '%P\n' | LC_ALL=C sort) <(printf '%s\n' "${earlier[@]}" | LC_ALL=C sort))
 [ -z "$others" ] || fail "$released: expected an empty folder, found other files"
 
@@ -106,6 +107,8 @@ make_packages() {
     local unpacked_here
     unpacked_here=$(unpacked "linux-$(uname -m)")
     works "$unpacked_here/halflit"
+    "$here/sbom.py" "$unpacked_here/halflit" "$(TZ=UTC git -C "$root" log -1 --date=format-local:%Y-%m-%dT%H:%M:%SZ --format=%cd)" \
+        >"$folder/halflit-$version-linux-$(uname -m).spdx.json"
     if [ "$(uname -m)" = x86_64 ]; then
         unpacked_here=$(unpacked linux-aarch64)
         works qemu-aarch64 "$unpacked_here/halflit"
@@ -125,6 +128,7 @@ awk -v version="$version" '/^## / { inside = ($2 == version) } inside' "$root/CH
 tar -C "$folder" --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -c recipes | gzip -9n >"$folder/halflit-$version-recipes.tar.gz"
 rm -r "$folder/recipes"
 (cd "$folder" && find . -maxdepth 1 -type f ! -name SHA256SUMS -printf '%P\n' | LC_ALL=C sort | xargs -d '\n' sha256sum >SHA256SUMS)
+[ -z "${HALFLIT_SIGNING_KEY:-}" ] || ssh-keygen -q -Y sign -f "$HALFLIT_SIGNING_KEY" -n file "$folder/SHA256SUMS"
 (cd "$released" && rm -f -- "${earlier[@]}")
 mv "$folder"/* "$released"
 (cd "$released" && ls -l && sha256sum --quiet -c SHA256SUMS)

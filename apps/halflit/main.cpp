@@ -62,7 +62,14 @@ bool means_render(std::span<const Command> commands, const std::vector<std::stri
     return false;
 }
 
+/// Threads with less of a stack would end in a fault of memory.
+constexpr std::size_t kLeastStack = std::size_t{256} << 10;
+
 int parse_and_run(int argc, char** argv) {
+    if (const std::size_t stack = platform::stack_limit(); stack > 0 && stack < kLeastStack) {
+        print_error("the limit of stacks is " + std::to_string(stack >> 10) + " KiB (ulimit -s), expected at least 256");
+        return static_cast<int>(ErrorCode::limit);
+    }
     const std::vector<Command> commands = all_commands();
     std::vector<std::string> arguments = platform::arguments(argc, argv);
     if (arguments.empty() && platform::is_terminal(platform::Stream::output)) return print(program_help(commands, help_width()));
@@ -76,7 +83,10 @@ int parse_and_run(int argc, char** argv) {
         case ParsedLine::Wanted::run:
             return run(*line->command);
         case ParsedLine::Wanted::version:
-            return print("halflit " + std::string(version()) + " (pixel_epoch " + std::to_string(kPixelEpoch) + ")\n");
+        case ParsedLine::Wanted::library_versions: {
+            const std::string own = "halflit " + std::string(version()) + " (pixel_epoch " + std::to_string(kPixelEpoch) + ")\n";
+            return print(line->wanted == ParsedLine::Wanted::version ? own : own + HALFLIT_LIBRARY_VERSIONS "\n");
+        }
         case ParsedLine::Wanted::self_test: {
             const SelfTest test = run_self_test(self_test_scenes());
             const int code = print(test.text);

@@ -23,15 +23,21 @@ trap 'rm -rf "$work"' EXIT
 # fenced FILE: the file's text as it is, whatever backquotes it has.
 fenced() { printf '~~~~~~text\n%s\n~~~~~~\n\n' "$(sed 's/^~~~~~~/ &/' "$1")" >>"$comment"; }
 
+# named NAME: a file's name as code, in which no mark of Markdown, HTML or a mention counts.
+named() {
+    local text=${1//[[:cntrl:]]/?}
+    printf '`%s`' "${text//\`/\'}"
+}
+
 check_golden() {
     local folder=$1 code=0
-    "$program" golden check "$folder" -o "$report/golden/$folder" >"$work/out" 2>"$work/err" || code=$?
+    "$program" golden check -o "$report/golden/$folder" -- "$folder" >"$work/out" 2>"$work/err" || code=$?
     if [ "$code" -eq 0 ]; then
-        printf '**%s**: every picture is as expected.\n\n' "$folder" >>"$comment"
+        printf '**%s**: every picture is as expected.\n\n' "$(named "$folder")" >>"$comment"
         return
     fi
     passed=false
-    printf '**%s**: pictures differ (exit code %d). `golden/%s/index.html` shows them.\n\n' "$folder" "$code" "$folder" >>"$comment"
+    printf '**%s**: pictures differ (exit code %d). golden/%s/index.html shows them.\n\n' "$(named "$folder")" "$code" "$(named "$folder")" >>"$comment"
     [ "$code" -eq 1 ] || cat "$work/err" >>"$work/out"
     fenced "$work/out"
     cat "$work/err" >&2
@@ -40,15 +46,15 @@ check_golden() {
 compare_model() {
     local model=$1 code=0 before
     before=$work/before/$model
-    mkdir -p "$(dirname "$before")"
+    mkdir -p -- "$(dirname -- "$before")"
     git show "$HALFLIT_BASE:./$model" >"$before"
     # The old version's other files are not beside it: what has not changed is taken from today's folder.
-    "$program" compare "$before" "$model" --allow-external "$(dirname "$model")" -o "$report/models/$model" --markdown "$work/comment.md" \
-        "${flags[@]}" >"$work/out" 2>"$work/err" || code=$?
-    printf '**%s**\n\n' "$model" >>"$comment"
+    "$program" compare --allow-external "$(dirname -- "$model")" -o "$report/models/$model" --markdown "$work/comment.md" \
+        "${flags[@]}" -- "$before" "$model" >"$work/out" 2>"$work/err" || code=$?
+    printf '**%s**\n\n' "$(named "$model")" >>"$comment"
     if [ "$code" -le 1 ]; then
         grep -v '^!\[' "$work/comment.md" >>"$comment" || true
-        printf '\n`models/%s/index.html` has the pictures.\n\n' "$model" >>"$comment"
+        printf '\nmodels/%s/index.html has the pictures.\n\n' "$(named "$model")" >>"$comment"
         rm -f "$work/comment.md"
         if [ "$code" -eq 1 ] && [ "${HALFLIT_FAIL_ON_CHANGE:-}" = true ]; then passed=false; fi
     else

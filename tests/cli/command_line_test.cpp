@@ -60,6 +60,64 @@ TEST_CASE("command line: a scene without a command is rendered", "[cli]") {
     CHECK(folder.names() == std::vector<std::string>{"out.png", "second.PNG", "triangle.gltf"});
 }
 
+TEST_CASE("command line: what people type is answered with what to type", "[cli]") {
+    const TemporaryFolder folder;
+    write_triangle(folder.file("triangle.gltf"));
+    std::filesystem::create_directory(folder.file("empty"));
+    const RunSettings here{.folder = folder.path()};
+    struct Row {
+        std::vector<std::string> arguments;
+        int code;
+        const char* message;
+    };
+    const Row rows[] = {
+        {{"https://example.invalid/duck.glb"}, 2, "curl -L 'https://example.invalid/duck.glb' | halflit -"},
+        {{"empty"}, 2, "empty: is a folder without models"},
+        {{"."}, 2, ".: names 1 models: expected -o FOLDER/"},
+        {{"triangle.gltf", "a.png", "b.png"}, 2, "two pictures are named, a.png and b.png"},
+        {{"triangle.gltf", "-o", "a.png", "-o", "b.png"}, 2, "--output: expected once, found 2 times"},
+        {{"triangle.gltf", "--size"}, 2, "--size: expected WxH after it, found nothing"},
+        {{"triangle.gltf", "-size", "9"}, 2, "did you mean --size?"},
+        {{"TRIANGLE.GLTF"}, 4, "did you mean triangle.gltf?"},
+        {{"compare", "triangle.gltf", "triangle.gltf", "-o", "c.png"}, 2, "expected a folder, found 'c.png'"},
+        {{"compare", "triangle.gltf"}, 2, "expected B, found nothing"},
+        {{"lobe"}, 2, "expected MODEL, found nothing"},
+    };
+    for (const Row& row : rows) {
+        const Outcome outcome = run(row.arguments, here);
+        INFO(outcome.err);
+        CHECK(outcome.code == row.code);
+        CHECK(contains(outcome.err, row.message));
+    }
+    CHECK(folder.names() == std::vector<std::string>{"empty", "triangle.gltf"});
+    CHECK(contains(run({"triangle.gltf", "--turntable", "2", "--size", "16"}, here).err, "-o film.gif"));
+}
+
+TEST_CASE("command line: a folder and a pattern stand for their models", "[cli][many]") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"a.gltf", "B.GLTF", "notes.txt"}) write_triangle(folder.file(name));
+    const RunSettings here{.folder = folder.path()};
+    CHECK(run({".", "-o", "all", "--size", "16"}, here).code == 0);
+    CHECK(run({"*.gltf", "-o", "fit/", "--size", "16"}, here).code == 0);
+    for (const char* const name : {"all/a.png", "all/B.png", "fit/a.png", "fit/B.png"}) CHECK(std::filesystem::exists(folder.file(name)));
+    CHECK(!std::filesystem::exists(folder.file("all/notes.png")));
+}
+
+TEST_CASE("command line: many pictures are told of in one line, and a list is not overwritten", "[cli][many]") {
+    const TemporaryFolder folder;
+    const RunSettings here{.folder = folder.path()};
+    std::string list;
+    for (int i = 0; i < 21; ++i) list += "sphere:200\n";
+    write_contents(folder.file("list.png"), list);
+    const Outcome many = run({"--files-from", "list.png", "-o", "{index}.png", "--size", "8"}, here);
+    CHECK(many.code == 0);
+    CHECK(many.err == "halflit: wrote 21 pictures, 0.png to 20.png\n");
+    const Outcome refused = run({"--files-from", "list.png", "-o", "list.png"}, here);
+    CHECK(refused.code == 2);
+    CHECK(contains(refused.err, "is not overwritten"));
+    CHECK(contents(folder.file("list.png")) == list);
+}
+
 TEST_CASE("command line: several scenes go into a folder, and one that fails does not stop the others", "[cli]") {
     const TemporaryFolder folder;
     const RunSettings here{.folder = folder.path()};

@@ -128,6 +128,10 @@ TEST_CASE("output: a symbolic link is followed, a device written in place", "[cl
     const TemporaryFolder folder;
     write_contents(folder.file("real.png"), kOld);
     if (!make_link("real.png", folder.file("link.png"))) HALFLIT_SKIP("no symbolic links here");
+    REQUIRE(make_link("../" + std::filesystem::path(folder.path()).filename().string() + "/new.png", folder.file("dangling.png")));
+    CHECK(run({"sphere:200", "-o", folder.file("dangling.png"), "--size", "8"}).code == 0);
+    CHECK(std::filesystem::is_symlink(folder.file("dangling.png")));
+    CHECK(std::filesystem::is_regular_file(folder.file("new.png")));
     CHECK(run(small(folder.file("link.png"))).code == 0);
     CHECK(std::filesystem::is_symlink(folder.file("link.png")));
     CHECK(read_picture(contents(folder.file("real.png"))).width == 40);

@@ -113,9 +113,8 @@ TEST_CASE("usage: a missing scene ends with 4 and the system's reason", "[cli]")
 
 TEST_CASE("usage: a folder is an error of its own, and -- ends the flags", "[cli]") {
     const TemporaryFolder folder;
-    const Outcome outcome = run({folder.path()});
-    CHECK(outcome.code == 4);
-    CHECK(outcome.err.find("directory") != std::string::npos);
+    check_error(run({"info", folder.path()}), 4, "directory");
+    check_error(run({folder.path()}), 2, "is a folder without models");
     CHECK(run({"-o", folder.file("a.png"), "--size", "8x8", "--", "demo"}).code == 0);
     CHECK(run({"--", "demo", folder.file("b.png")}).code == 0);
 }

@@ -7,7 +7,8 @@ import sys
 import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(os.path.dirname(os.path.dirname(HERE)), "apps", "python")]
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path[:0] = [HERE, os.path.join(ROOT, "apps", "python"), os.path.join(ROOT, "tests", "support")]
 
 try:
     import numpy  # noqa: F401
@@ -17,7 +18,5 @@ except ImportError:
 
 if __name__ == "__main__":  # which a process that a test starts is not
     suite = unittest.defaultTestLoader.discover(HERE, pattern=sys.argv[1], top_level_dir=HERE)
-    result = unittest.TextTestRunner(verbosity=2).run(suite)
-    if result.wasSuccessful() and result.testsRun and len(result.skipped) == result.testsRun:
-        sys.exit(77)
-    sys.exit(0 if result.wasSuccessful() and result.testsRun else 1)
+    import skips
+    sys.exit(skips.exit_code(unittest.TextTestRunner(verbosity=2).run(suite)))

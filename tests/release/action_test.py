@@ -75,7 +75,7 @@ class Action(unittest.TestCase):
         done, summary, outputs = self.check(HALFLIT_GOLDEN="pictures")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(outputs["passed"], "true")
-        self.assertIn("**pictures**: every picture is as expected.", summary)
+        self.assertIn("**`pictures`**: every picture is as expected.", summary)
         self.assertEqual(text_of(outputs["comment"]), summary)
 
     def test_another_picture_fails_and_its_page_is_there(self):
@@ -101,11 +101,27 @@ class Action(unittest.TestCase):
         for fail, code in (("false", 0), ("true", 1)):
             done, summary, _ = self.check(HALFLIT_BASE=base, HALFLIT_FAIL_ON_CHANGE=fail, HALFLIT_COMPARE_FLAGS="--size 64x64")
             self.assertEqual(done.returncode, code, done.stderr)
-            self.assertIn("**parts/a box.off**", summary)
+            self.assertIn("**`parts/a box.off`**", summary)
             self.assertNotIn("![", summary)  # a summary cannot show the files of an artifact
             self.assertIn("1.5", summary)  # the size that changed
         folder = os.listdir(os.path.join(self.report, "models", "parts", "a box.off"))
         self.assertLessEqual({"index.html", "compare.png"}, set(folder))
+
+    def test_names_of_files_are_no_flags_and_no_markdown(self):
+        names = ("-x.off", "--markdown=e.off", "<img src=a>`@me`[a](b).off")
+        for name in names:
+            write(self.file(".", name), BOX.format(top=1))
+        self.commit()
+        base = self.git("rev-parse", "HEAD").strip()
+        for name in names:
+            write(self.file(".", name), BOX.format(top=1.5))
+        self.commit()
+        done, summary, _ = self.check(HALFLIT_BASE=base, HALFLIT_COMPARE_FLAGS="--size 32x32")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in names:
+            self.assertIn("**`" + name.replace("`", "'") + "`**", summary)
+        self.assertEqual(sorted(os.listdir(os.path.join(self.report, "models"))), sorted(names))
+        self.assertFalse(os.path.exists(self.file("e.off")))
 
     def test_without_a_change_there_is_nothing_to_compare(self):
         done, summary, _ = self.check(HALFLIT_BASE="HEAD")

@@ -1,5 +1,6 @@
 """Files of `./dev release --source-only`."""
 import hashlib
+import json
 import os
 import re
 import tarfile
@@ -63,6 +64,26 @@ class Files(unittest.TestCase):
         self.assertGreater(len(golden), 100)
         for name, codes, linear in golden:
             self.assertIn(f"\n{codes.zfill(16)}  {linear.zfill(16)}  {name}\n", text)
+
+    def test_the_parts_of_a_program_are_listed(self):
+        document = json.loads(output(os.path.join(PACKAGING, "sbom.py"), PROGRAM))
+        lines = output(PROGRAM, "--version", "--verbose").splitlines()
+        self.assertEqual([package["name"] for package in document["packages"]], [line.split()[0] for line in lines])
+        self.assertIn("libdeflate", [package["name"] for package in document["packages"]])
+        known = {package["SPDXID"] for package in document["packages"]} | {"SPDXRef-DOCUMENT"}
+        for relation in document["relationships"]:
+            self.assertLessEqual({relation["spdxElementId"], relation["relatedSpdxElement"]}, known)
+
+    def test_a_key_signs_the_checksums(self):
+        need("ssh-keygen")
+        with tempfile.TemporaryDirectory() as folder:
+            key = os.path.join(folder, "key")
+            output("ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", key)
+            made = os.path.join(folder, "release")
+            output(os.path.join(PACKAGING, "release.sh"), "--source-only", "--dirty", made, env={**os.environ, "HALFLIT_SIGNING_KEY": key})
+            done = run("ssh-keygen", "-Y", "check-novalidate", "-n", "file", "-s", os.path.join(made, "SHA256SUMS.sig"),
+                       input=text_of(made, "SHA256SUMS"))
+            self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_notes_are_the_changes_of_this_version(self):
         notes = text_of(self.folder, "notes.md")

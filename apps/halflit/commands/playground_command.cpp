@@ -47,7 +47,9 @@ Command playground_command() {
             {},
             {{"Flags", {{"-o,--output", "FILE", "The page, one file (default playground.html); -: standard output", read_text(*output)}}},
              {"Messages", message_flags()}},
-            [output] { return run_playground(*output); }};
+            [output] { return run_playground(*output); },
+            false,
+            HALFLIT_HAS_PLAYGROUND == 0};
 }
 
 }  // namespace halflit::cli

@@ -177,6 +177,9 @@ Command sheet_command() {
     scenes.read = append_to(o.scenes);
     scenes.repeated = true;
     return {"sheet", "Draw many scenes into one picture, with their names", {std::move(scenes)}, std::move(groups), [options] {
+                auto scenes = with_models_named(options->scenes);
+                if (!scenes) return Result<int>(tl::unexpected(scenes.error()));
+                options->scenes = *std::move(scenes);
                 return run_sheet(*options);
             }};
 }

@@ -115,7 +115,9 @@ Command view_command() {
             "Show a scene in a window: turn it, change light and lobes, click on pixels",
             {scene_argument(*options, false)},
             std::move(groups),
-            [options] { return run_view(*options); }};
+            [options] { return run_view(*options); },
+            false,
+            !viewer::has_viewer()};
 }
 
 }  // namespace halflit::cli

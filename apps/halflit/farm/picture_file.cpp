@@ -208,11 +208,11 @@ Result<void> write_with_aovs(const std::string& output, std::span<const std::uin
     return {};
 }
 
-Result<void> write_picture(const PictureFile& picture) {
+Result<void> write_picture(const PictureFile& picture, bool one_of_many) {
     if (const auto written = write_with_aovs(picture.output, picture.bytes, picture.beside); !written) return written;
     std::string note = "wrote " + picture.output;
     for (const AovFile& file : picture.beside.files) note += ", " + file.path;
-    if (picture.output != "-") print_note(note);
+    if (picture.output != "-") (one_of_many ? print_detail : print_note)(note);
     return {};
 }
 

@@ -95,7 +95,7 @@ struct PictureFile {
 /// Writes the files beside a picture, then the picture: where that is, they are whole.
 [[nodiscard]] Result<void> write_with_aovs(const std::string& output, std::span<const std::uint8_t> bytes, const AovFiles& beside);
 
-/// The same, and tells of it.
-[[nodiscard]] Result<void> write_picture(const PictureFile& picture);
+/// The same, and tells of it; one_of_many: in detail alone.
+[[nodiscard]] Result<void> write_picture(const PictureFile& picture, bool one_of_many = false);
 
 }  // namespace halflit::cli

@@ -88,6 +88,7 @@ private:
     /// The folder's files take the scene's name.
     Result<void> name_files() {
         std::string& output = options_.output;
+        if (output.empty() && !options_.film.several_views()) hint_ = "; -o film.gif, .apng or .webp makes one file of them";
         if (output.empty() || output.ends_with('/')) {
             const std::string usual = default_output(options_.scene, options_.format);
             const std::string stem = stem_of(usual);
@@ -344,7 +345,7 @@ private:
             }
             print_note(range_.count() == 1
                            ? "wrote " + file_of(0)
-                           : fmt::format("wrote {} frames, {} to {}", drawn_count_, file_of(0), file_of(range_.count() - 1)));
+                           : fmt::format("wrote {} frames, {} to {}{}", drawn_count_, file_of(0), file_of(range_.count() - 1), hint_));
             return {};
         }
         const auto bytes = writer_->finish();
@@ -356,6 +357,7 @@ private:
 
     PictureOptions& options_;
     bool skip_existing_;
+    std::string_view hint_;        ///< for a film that nobody named
     FrameRange whole_, range_;     ///< all frames, and those of this shard
     std::size_t drawn_count_ = 0;  ///< frames that were drawn
     RenderJob* job_ = nullptr;

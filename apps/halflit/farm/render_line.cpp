@@ -7,6 +7,8 @@
 #include "apps/io/pictures/picture_reader.hpp"
 #include "halflit/image.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
@@ -38,6 +40,20 @@ Result<void> add_listed(const std::string& list, std::vector<std::string>& scene
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     if (scenes.empty()) return fail(ErrorCode::usage, "--files-from " + list + ": found no scene");
+    return {};
+}
+
+/// A folder, or a pattern that no shell has replaced, stands for its models, whose pictures go into a folder.
+Result<void> expand(RenderLine& line) {
+    auto scenes = with_models_named(line.words);
+    if (!scenes) return tl::unexpected(scenes.error());
+    if (*scenes == line.words) return {};
+    std::string& output = line.output;
+    if (output.empty())
+        return fail(ErrorCode::usage,
+                    fmt::format("{}: names {} models: expected -o FOLDER/ for their pictures", line.words[0], scenes->size()));
+    if (!output.ends_with('/') && !is_pattern(output) && !is_picture_name(output)) output += '/';
+    line.words = *std::move(scenes);
     return {};
 }
 
@@ -79,8 +95,12 @@ Result<RenderKind> settle_kind(RenderLine& line) {
         line.output = words.back();
         words.pop_back();
     }
+    const bool has_list = !line.list.empty() && line.list != "-";
+    if (has_list && (same_file(line.list, line.output) || same_file(line.list, line.report)))
+        return fail(ErrorCode::usage, line.list + ": is the list of --files-from and is not overwritten");
     if (!line.list.empty())
         if (const auto added = add_listed(line.list, words); !added) return tl::unexpected(added.error());
+    if (const auto expanded = expand(line); !expanded) return tl::unexpected(expanded.error());
     if (line.film.wanted()) {
         if (words.size() > 1)
             return fail(ErrorCode::usage, "--frames, --turntable and several views: expected one scene, found " + words[1]);
@@ -95,6 +115,8 @@ Result<RenderKind> settle_kind(RenderLine& line) {
         return fail(ErrorCode::usage, line.output + ": expected --frames or --turntable, which make many frames, or another extension");
     if (words.size() > 1 && !line.output.ends_with('/') && is_folder(line.output)) line.output += '/';
     const bool many = line.output.ends_with('/') || is_pattern(line.output);
+    if (words.size() > 1 && !many && is_picture_name(words.back()))
+        return fail(ErrorCode::usage, "two pictures are named, " + words.back() + " and " + line.output + ": expected one");
     if (words.size() > 1 && !many)
         return fail(ErrorCode::usage, "unexpected argument " + words[1] +
                                           (is_scene(words[1]) ? ": several scenes need -o FOLDER/" : unknown_format(words[1])) +

@@ -4,6 +4,7 @@
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/output_folder.hpp"
+#include "apps/halflit/program/progress_line.hpp"
 #include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/files/model_files.hpp"
@@ -107,6 +108,8 @@ public:
         for (std::thread& thread : others) thread.join();
         if (report_ != nullptr && std::fclose(report_.release()) != 0 && !report_error_) report_error_ = errno;
         if (report_error_) return fail(ErrorCode::io, options_.each.report + ": " + platform::errno_text(*report_error_));
+        progress_.clear();
+        if (is_long() && written_ > 0) print_note(fmt::format("wrote {} pictures, {} to {}", written_, first_, last_));
         if (skipped_ > 0 && others_ == 0) print_note(fmt::format("nothing to do: all {} pictures are there", skipped_));
         return code_ != 0 ? code_ : any_blank_ ? 1 : 0;
     }
@@ -245,7 +248,7 @@ private:
         }
         permits_.give_back(threads);
         if (!picture) return failure(i, picture.error());
-        if (const auto written = write_picture(*picture); !written) return failure(i, written.error());
+        if (const auto written = write_picture(*picture, is_long()); !written) return failure(i, written.error());
         return {"", std::move(picture->report), 0, picture->blank};
     }
 
@@ -258,10 +261,14 @@ private:
         return bytes_[i] > kLargeFile || std::int64_t{size.width} * size.height * options.settings.samples > kLargePicture;
     }
 
+    /// Too many pictures for a line each.
+    [[nodiscard]] bool is_long() const { return pictures_.size() > 20 * step_; }
+
     /// Tells the outcomes that are next in order.
     void tell() {
         for (; told_ < outcomes_.size() && outcomes_[told_]; told_ += step_) {
             Outcome& outcome = *outcomes_[told_];
+            if (!outcome.messages.empty()) progress_.clear();
             std::fwrite(outcome.messages.data(), 1, outcome.messages.size(), stderr);
             if (report_ != nullptr && !report_error_ &&
                 (std::fwrite(outcome.report.data(), 1, outcome.report.size(), report_.get()) != outcome.report.size() ||
@@ -270,7 +277,12 @@ private:
             if (code_ == 0) code_ = outcome.code;
             any_blank_ |= outcome.blank;
             ++(outcome.skipped ? skipped_ : others_);
+            if (outcome.code == 0 && !outcome.skipped) {
+                if (written_++ == 0) first_ = pictures_[told_].output;
+                last_ = pictures_[told_].output;
+            }
             outcome = {};
+            if (is_long()) progress_.show(told_ / step_ + 1, (pictures_.size() + step_ - 1) / step_);
         }
     }
 
@@ -291,7 +303,9 @@ private:
     std::optional<int> report_error_;
     int code_ = 0;
     bool any_blank_ = false;
-    std::size_t skipped_ = 0, others_ = 0;
+    std::size_t skipped_ = 0, others_ = 0, written_ = 0;
+    std::string first_, last_;  ///< of the pictures that were written
+    ProgressLine progress_{false};
 };
 
 }  // namespace

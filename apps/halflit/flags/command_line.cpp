@@ -99,7 +99,7 @@ std::string meant_by(const std::string& word, const std::vector<std::string>& ca
 std::vector<std::string> command_names(std::span<const Command> commands) {
     std::vector<std::string> names;
     for (const Command& command : commands)
-        if (!command.hidden) names.push_back(command.name);
+        if (!command.hidden && !command.lacking) names.push_back(command.name);
     return names;
 }
 
@@ -123,9 +123,26 @@ std::vector<std::string> flag_names(const Command* command) {
     return names;
 }
 
+/// The parser's message in the words of the others: a flag given too often or without its value, a word that is missing.
+std::string in_plain_words(std::string message, const Command* command) {
+    constexpr std::string_view kTwice = ": At Most 1 required but received ", kNothing = ": 1 required ", kMissing = " missing",
+                               kWord = " is required";
+    if (const std::size_t at = message.find(kTwice); at != std::string::npos)
+        return message.substr(0, at) + ": expected once, found " + message.substr(at + kTwice.size()) + " times";
+    if (const std::size_t at = message.find(kNothing); at != std::string::npos && message.ends_with(kMissing)) {
+        message.resize(message.size() - kMissing.size());
+        return message.substr(0, at) + ": expected " + message.substr(at + kNothing.size()) + " after it, found nothing";
+    }
+    if (command == nullptr || !message.ends_with(kWord)) return message;
+    const std::string name = message.substr(0, message.size() - kWord.size());
+    for (const Positional& positional : command->positionals)
+        if (positional.name == name) return "expected " + name + ", found nothing: " + positional.help;
+    return message;
+}
+
 /// One line for a wrong command line. `command`: the command that was given; null if there is none.
 std::string usage_message(const CLI::App& root, const CLI::ParseError& error, std::span<const Command> commands, const Command* command) {
-    std::string message = error.what();
+    std::string message = in_plain_words(error.what(), command);
     const std::vector<std::string> rest = root.remaining(true);
     const bool no_command = command == nullptr && error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
     if (!rest.empty() && (no_command || error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))) {
@@ -191,6 +208,12 @@ void drop_dash_of_json(std::span<const Command> commands, std::vector<std::strin
     if (dash != arguments.end() && words > command->positionals.size()) arguments.erase(dash);
 }
 
+/// --verbose beside --version, which is not of a command. It is left out of the line.
+bool root_is_verbose(std::vector<std::string>& arguments) {
+    const auto is_version = [](const std::string& word) { return word == "--version" || word == "-V"; };
+    return std::any_of(arguments.begin(), arguments.end(), is_version) && std::erase(arguments, "--verbose") > 0;
+}
+
 }  // namespace
 
 Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::vector<std::string> arguments) {
@@ -208,6 +231,7 @@ Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::ve
     });
     root.require_subcommand(1);
     for (const Command& command : commands) add_command(root, command, arguments);
+    const bool verbose = root_is_verbose(arguments);
     const auto chosen = [&]() -> const Command* {
         const auto parsed = root.get_subcommands();
         if (parsed.empty()) return nullptr;
@@ -218,7 +242,9 @@ Result<ParsedLine> parse_command_line(std::span<const Command> commands, std::ve
     try {
         root.parse(std::move(arguments));
     } catch (const CLI::CallForVersion&) {
-        return ParsedLine{nullptr, self_test ? ParsedLine::Wanted::self_test : ParsedLine::Wanted::version};
+        return ParsedLine{nullptr, self_test ? ParsedLine::Wanted::self_test
+                                   : verbose ? ParsedLine::Wanted::library_versions
+                                             : ParsedLine::Wanted::version};
     } catch (const CLI::CallForAllHelp&) {
         return ParsedLine{chosen(), ParsedLine::Wanted::help_all};
     } catch (const CLI::CallForHelp&) {

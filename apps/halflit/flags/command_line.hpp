@@ -10,7 +10,7 @@
 namespace halflit::cli {
 
 struct ParsedLine {
-    enum class Wanted { run, help, help_all, version, self_test };
+    enum class Wanted { run, help, help_all, version, library_versions, self_test };
     const Command* command = nullptr;  ///< null: none, with help, version or self_test
     Wanted wanted = Wanted::run;
 };

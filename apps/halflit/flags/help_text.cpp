@@ -61,8 +61,10 @@ std::string program_help(std::span<const Command> commands, std::size_t width) {
     std::string text =
         std::string(kProgramHelp) + "\n\nUsage: halflit SCENE [PICTURE] [FLAGS]\n       halflit COMMAND [FLAGS]\n\nCommands:\n";
     for (const Command& command : commands)
-        if (!command.hidden) text += "  " + command.name + std::string(12 - command.name.size(), ' ') + folded(command.help, 14, 14, width);
-    text += "\nFlags:\n" + row("-h, --help", "Print this help", width) + row("-V, --version", "Print the version", width) +
+        if (!command.hidden && !command.lacking)
+            text += "  " + command.name + std::string(12 - command.name.size(), ' ') + folded(command.help, 14, 14, width);
+    text += "\nFlags:\n" + row("-h, --help", "Print this help", width) +
+            row("-V, --version", "Print the version, with --verbose also those of the libraries in the program", width) +
             row("--self-test",
                 "Draw small built-in scenes by every instruction set, and compare them with built-in hashes; for reports of faults", width);
     return text + "\n" +

@@ -1,10 +1,12 @@
 #include "apps/halflit/program/file_names.hpp"
 
 #include "apps/halflit/program/spelling.hpp"
+#include "apps/io/files/text.hpp"
 #include "apps/io/models/formats.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/handles.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -20,12 +22,15 @@ using platform::FileKind, platform::FileStatus;
 std::string folder_prefix(const std::string& path) { return path.substr(0, platform::last_separator(path) + 1); }  // npos + 1 is 0
 
 bool ends_with_any_case(std::string_view text, std::string_view end) {
-    if (text.size() < end.size()) return false;
-    for (std::size_t i = 0; i < end.size(); ++i) {
-        const char c = text[text.size() - end.size() + i];
-        if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != end[i]) return false;
-    }
-    return true;
+    return text.size() >= end.size() && std::equal(end.begin(), end.end(), text.end() - static_cast<std::ptrdiff_t>(end.size()),
+                                                   [](char a, char b) { return io::lower(a) == io::lower(b); });
+}
+
+/// Place of the next character in UTF-8.
+std::size_t next_character(std::string_view text, std::size_t at) {
+    do ++at;
+    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u);
+    return at;
 }
 
 tl::unexpected<Error> refused(const std::string& path, int error) { return fail(ErrorCode::io, path + ": " + platform::errno_text(error)); }
@@ -67,6 +72,52 @@ bool is_model_name(std::string_view path) {
     return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return ends_with_any_case(path, row.extension); });
 }
 
+bool fits_pattern(std::string_view pattern, std::string_view text, bool fold) {
+    const auto same = [fold](char a, char b) { return a == b || (fold && io::lower(a) == io::lower(b)); };
+    constexpr std::size_t kNone = std::string_view::npos;
+    std::size_t p = 0, t = 0, star = kNone, star_end = 0;  // after a failure, the last star takes one more character
+    TimeCheck check;
+    while (t < text.size()) {
+        check();
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = ++p, star_end = t;
+        } else if (p < pattern.size() && pattern[p] == '?') {
+            ++p, t = next_character(text, t);
+        } else if (p < pattern.size() && same(pattern[p], text[t])) {
+            ++p, ++t;
+        } else if (star != kNone) {
+            p = star, t = star_end = next_character(text, star_end);
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == kNone;
+}
+
+std::vector<std::string> models_named(const std::string& word) {
+    constexpr std::size_t kMostNames = 100'000;
+    const bool folder = is_folder(word);
+    if (!folder && (word.find_first_of("*?") == std::string::npos || is_file(word))) return {};
+    const std::string prefix = folder ? path_in(word, "") : folder_prefix(word);
+    const std::string pattern = folder ? "*" : word.substr(prefix.size());
+    std::vector<std::string> models;
+    for (const std::string& name : platform::names_in(prefix, kMostNames))
+        if (is_model_name(name) && fits_pattern(pattern, name, true) && is_file(prefix + name)) models.push_back(prefix + name);
+    std::sort(models.begin(), models.end());
+    return models;
+}
+
+Result<std::vector<std::string>> with_models_named(const std::vector<std::string>& words) {
+    std::vector<std::string> scenes;
+    for (const std::string& word : words) {
+        const std::vector<std::string> models = models_named(word);
+        if (models.empty() && is_folder(word)) return fail(ErrorCode::usage, word + ": is a folder without models");
+        if (models.empty()) scenes.push_back(word);
+        scenes.insert(scenes.end(), models.begin(), models.end());
+    }
+    return scenes;
+}
+
 std::vector<std::string> files_beside(const std::string& path) {
     constexpr std::size_t kMostNames = 1000;
     const std::string prefix = folder_prefix(path);
@@ -91,6 +142,8 @@ Result<void> check_writable(const std::string& path) {
         if (const int error = platform::may_write(path); error != 0) return refused(path, error);
         if (status.kind != FileKind::file) return {};  // a device is written in place
         if (std::string real = platform::real_path(path); !real.empty()) target = std::move(real);
+    } else if (platform::is_link(path)) {
+        target = platform::whole_path(path);
     }
     const std::string prefix = folder_prefix(target), folder = prefix.empty() ? "." : prefix;
     if (const int error = platform::may_write_into(folder); error != 0) return refused(path + ": the folder " + folder, error);

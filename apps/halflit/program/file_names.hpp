@@ -29,6 +29,12 @@ namespace halflit::cli {
 /// True if the name ends as those of models' formats do, in any case.
 [[nodiscard]] bool is_model_name(std::string_view path);
 
+/// The models that a word of the command line names, in the order of their names: those in a folder, or those that fit a pattern with `*`
+/// or `?` that no shell has replaced, whatever their case. Nothing for any other word. Reads at most 100,000 names.
+[[nodiscard]] std::vector<std::string> models_named(const std::string& word);
+/// Words with the models that they name in their places. Fails (usage) for a folder without models.
+[[nodiscard]] Result<std::vector<std::string>> with_models_named(const std::vector<std::string>& words);
+
 /// Paths of the files in the same folder, as they would be typed. Reads at most 1,000 names.
 [[nodiscard]] std::vector<std::string> files_beside(const std::string& path);
 
@@ -40,6 +46,10 @@ namespace halflit::cli {
 
 /// The name without folder and extension: "duck" for "models/duck.glb".
 [[nodiscard]] std::string stem_of(const std::string& path);
+
+/// True if the whole text fits the pattern: `*` stands for any characters, `?` for one. fold: ASCII letters fit both their cases. Takes
+/// time with the product of the lengths at most.
+[[nodiscard]] bool fits_pattern(std::string_view pattern, std::string_view text, bool fold);
 
 /// True for a name with words in braces, such as "{stem}.png".
 [[nodiscard]] bool is_pattern(std::string_view name);

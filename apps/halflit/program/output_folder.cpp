@@ -1,6 +1,8 @@
 #include "apps/halflit/program/output_folder.hpp"
 
+#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
 #include "apps/io/platform/paths.hpp"
 
 #include <fmt/core.h>
@@ -10,7 +12,8 @@
 namespace halflit::cli {
 
 Result<std::string> parse_folder(const std::string& text) {
-    if (text.empty() || text == "-") return fail(ErrorCode::usage, "expected a folder, found '" + text + "'");
+    if (text.empty() || text == "-" || (io::is_picture_name(text) && !is_folder(text)))
+        return fail(ErrorCode::usage, "expected a folder, found '" + text + "'");
     return text;
 }
 

@@ -18,10 +18,13 @@ constexpr double kLeastShare = 0.02;  // below, the time left would be a guess
 ProgressLine::ProgressLine(bool always, double delay_ms)
     : shown_((always || platform::is_terminal(platform::Stream::error)) && verbosity() != Verbosity::quiet), delay_ms_(delay_ms) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::clear() {
     if (!shown_ || width_ == 0) return;
     overwrite("");
     std::fputc('\r', stderr);
+    width_ = 0;
 }
 
 bool ProgressLine::due(bool last) {

@@ -18,6 +18,8 @@ public:
 
     /// "halflit: 12 of 80, 15 %, 40 s left". The time left assumes that the other steps take as long as those since construction.
     void show(std::size_t done, std::size_t all);
+    /// Erases the line, for messages.
+    void clear();
     /// "halflit: 15 %, 40 s left" for a share of 0.15.
     void show(double share);
 

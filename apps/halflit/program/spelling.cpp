@@ -1,12 +1,17 @@
 #include "apps/halflit/program/spelling.hpp"
 
+#include "apps/io/files/text.hpp"
+
 #include <algorithm>
 #include <vector>
 
 namespace halflit::cli {
 namespace {
 
-/// Number of characters inserted, deleted or replaced, and of neighbours exchanged (the optimal string alignment distance).
+using io::lower;
+
+/// Number of characters inserted, deleted or replaced, and of neighbours exchanged (the optimal string alignment distance), whatever the
+/// case of letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     const std::size_t width = b.size() + 1;
     std::vector<std::size_t> d((a.size() + 1) * width);
@@ -14,7 +19,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t i = 1; i <= a.size(); ++i) {
         d[i * width] = i;
         for (std::size_t j = 1; j < width; ++j) {
-            const std::size_t replaced = d[(i - 1) * width + j - 1] + (a[i - 1] != b[j - 1]);
+            const std::size_t replaced = d[(i - 1) * width + j - 1] + (lower(a[i - 1]) != lower(b[j - 1]));
             d[i * width + j] = std::min({replaced, d[(i - 1) * width + j] + 1, d[i * width + j - 1] + 1});
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
                 d[i * width + j] = std::min(d[i * width + j], d[(i - 2) * width + j - 2] + 1);

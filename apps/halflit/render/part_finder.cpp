@@ -15,38 +15,7 @@ namespace {
 
 constexpr std::size_t kMostCandidates = 10'000;  // names that a misspelt one is compared with, which takes about 10 us each
 
-char folded(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Place of the next character in UTF-8.
-std::size_t next_character(std::string_view text, std::size_t at) {
-    do ++at;
-    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u);
-    return at;
-}
-
 }  // namespace
-
-bool fits_pattern(std::string_view pattern, std::string_view text, bool fold) {
-    const auto same = [fold](char a, char b) { return a == b || (fold && folded(a) == folded(b)); };
-    constexpr std::size_t kNone = std::string_view::npos;
-    std::size_t p = 0, t = 0, star = kNone, star_end = 0;  // after a failure, the last star takes one more character
-    TimeCheck check;
-    while (t < text.size()) {
-        check();
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = ++p, star_end = t;
-        } else if (p < pattern.size() && pattern[p] == '?') {
-            ++p, t = next_character(text, t);
-        } else if (p < pattern.size() && same(pattern[p], text[t])) {
-            ++p, ++t;
-        } else if (star != kNone) {
-            p = star, t = star_end = next_character(text, star_end);
-        } else {
-            return false;
-        }
-    }
-    return pattern.find_first_not_of('*', p) == kNone;
-}
 
 PartFinder::PartFinder(const Parts& parts) : parts_(parts) {
     TimeCheck check;

@@ -11,10 +11,6 @@
 
 namespace halflit::cli {
 
-/// True if the whole text fits the pattern: `*` stands for any characters, `?` for one. fold: ASCII letters fit both their cases. Takes
-/// time with the product of the lengths at most.
-[[nodiscard]] bool fits_pattern(std::string_view pattern, std::string_view text, bool fold);
-
 /// Refers to the parts, which must outlive it and keep their names.
 class PartFinder {
 public:

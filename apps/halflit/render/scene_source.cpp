@@ -17,6 +17,8 @@ Result<LoadedScene> load_file(const RenderOptions& options) {
     return load_model_bytes(*bytes, kStandardInputName, "", load);
 }
 
+bool is_address(std::string_view name) { return name.starts_with("http://") || name.starts_with("https://"); }
+
 }  // namespace
 
 Result<SceneSource> load_scene(const RenderOptions& options) {
@@ -36,6 +38,8 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                            .placement = {.up = up},
                            .parts = std::move(parts)};
     }
+    if (is_address(name))
+        return fail(ErrorCode::usage, name + ": is an address, and no network is used; curl -L '" + name + "' | halflit - -o picture.png");
     auto loaded = load_file(options);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
         return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
@@ -52,7 +56,9 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                        std::move(parts)};
 }
 
-bool is_scene(const std::string& name) { return name == "-" || is_built_in_name(name) || is_model_name(name) || is_file(name); }
+bool is_scene(const std::string& name) {
+    return name == "-" || is_address(name) || is_built_in_name(name) || is_model_name(name) || is_file(name);
+}
 
 Result<EnvironmentImage> find_environment(const std::string& name) {
     if (name == "sky") return built_in_sky();

@@ -214,7 +214,9 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
     int error = platform::status_of(path, old);
     if (error == ENOENT) {
         if (path.empty() || platform::last_separator(path) == path.size() - 1) return system_error(path, path.empty() ? ENOENT : EISDIR);
-        error = replace_file(path, bytes, 0666, false);
+        const std::string target = platform::is_link(path) ? platform::whole_path(path) : path;  // a link to what is not there yet
+        if (target.empty()) return system_error(path, errno);
+        error = replace_file(target, bytes, 0666, false);
     } else if (error != 0) {
         return system_error(path, error);
     } else if (old.kind == FileKind::folder) {

@@ -65,10 +65,10 @@ bool looks_like_binary_stl(std::span<const std::byte> bytes) {
     constexpr std::size_t kTitle = 80, kFirst = 84, kRecord = 50;
     if (bytes.size() < kFirst + kRecord) return false;
     const std::uint32_t count = u32_at(bytes, kTitle);
-    if (count > 1u << 27 || (count == 0 && (bytes.size() - kFirst) % kRecord != 0)) return false;
-    for (std::size_t i = 0; i < 12; ++i) {  // the normal, then three corners
+    if ((count > 1u << 27 || count == 0) && (bytes.size() - kFirst) % kRecord != 0) return false;
+    for (std::size_t i = 0; i < 12; ++i) {  // the normal, of any length, then three corners
         const float value = std::bit_cast<float>(u32_at(bytes, kFirst + 4 * i)), size = value < 0 ? -value : value;
-        if (!(size <= (i < 3 ? 1.5f : 1e9f)) || (size > 0 && size < 1e-12f)) return false;
+        if (!(size <= 1e9f) || (size > 0 && size < 1e-12f)) return false;
     }
     return true;
 }

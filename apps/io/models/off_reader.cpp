@@ -199,7 +199,10 @@ private:
             for (Vec4f& c : colors) c.w = 1;
         };
         make(std::span(soup_.colors).first(vertex_colors_));
-        for (std::size_t i = vertex_colors_; i < soup_.colors.size(); ++i) soup_.colors[i].w = 1;
+        for (Vec4f& c : std::span(soup_.colors).subspan(vertex_colors_)) {
+            if (most_code_ == 1) c = {c.x > 0 ? 1.0f : 0.0f, c.y > 0 ? 1.0f : 0.0f, c.z > 0 ? 1.0f : 0.0f, 1};  // shares: 1 0 0 is red
+            c.w = 1;
+        }
         if (!are_no_colors(ModelFormat::off, soup_.colors)) return;
         builder_.document().warn("its colours are all black, as where none were set: drawn in grey");
         soup_.colors.clear();
@@ -216,6 +219,7 @@ private:
             codes = codes && word.find_first_of(".eE") == std::string_view::npos;
             if (!scanner_.take_number(value[i])) return std::nullopt;
         }
+        for (std::size_t i = 0; i < 3; ++i) most_code_ = std::max(most_code_, codes ? value[i] : 255.0);
         std::array<Vec4f, 1> made{rounded(value)};
         make_linear(made, codes ? 255 : 1);
         return made[0];
@@ -283,6 +287,7 @@ private:
     ModelBuilder& builder_;
     Soup soup_;
     bool has_normals_ = false, has_colors_ = false, has_uvs_ = false;  ///< of vertices
+    double most_code_ = 0;  ///< of faces' colours, all of which are whole numbers; 255: some are not
     std::size_t vertex_colors_ = 0, bad_faces_ = 0, long_rows_ = 0;
     PolygonCutter cutter_;
     std::vector<std::uint32_t> corners_, triangles_;

@@ -16,6 +16,8 @@ namespace halflit::platform {
 [[nodiscard]] bool may_be_running(std::int64_t process);
 /// The most physical memory that the process has held, in bytes.
 [[nodiscard]] std::int64_t peak_memory();
+/// The limit of a thread's stack in bytes; 0: none, or it is not told.
+[[nodiscard]] std::size_t stack_limit();
 /// From now on, an allocation fails that would take the process beyond this. A lower limit that it has already stays. Returns 0 or errno.
 [[nodiscard]] int limit_memory(std::size_t bytes);
 

@@ -52,10 +52,16 @@ std::string real_path(const std::string& path) {
 }
 
 std::string whole_path(const std::string& path) {
+    namespace fs = std::filesystem;
+    constexpr int kMostLinks = 40;  // as the kernel allows
     std::error_code error;
-    std::string whole = std::filesystem::weakly_canonical(path, error).string();
+    fs::path whole = fs::weakly_canonical(path, error);
+    for (int i = 0; !error && i < kMostLinks && is_link(whole.string()); ++i) {  // a link to what is not there
+        const fs::path target = fs::read_symlink(whole, error);
+        if (!error) whole = fs::weakly_canonical(whole.parent_path() / target, error);
+    }
     errno = error.value();
-    return error ? "" : whole;
+    return error ? "" : whole.string();
 }
 
 std::string linked_place(const std::string& path) { return real_path(path); }

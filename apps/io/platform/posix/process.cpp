@@ -60,6 +60,11 @@ std::int64_t process_id() { return ::getpid(); }
 
 bool may_be_running(std::int64_t process) { return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
 
+std::size_t stack_limit() {
+    struct rlimit limit {};
+    return ::getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? static_cast<std::size_t>(limit.rlim_cur) : 0;
+}
+
 std::int64_t peak_memory() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);

@@ -61,6 +61,8 @@ bool may_be_running(std::int64_t process) {
     return runs;
 }
 
+std::size_t stack_limit() { return 0; }
+
 std::int64_t peak_memory() {
     PROCESS_MEMORY_COUNTERS counters{};
     counters.cb = sizeof counters;
