@@ -177,9 +177,9 @@ Command sheet_command() {
     scenes.read = append_to(o.scenes);
     scenes.repeated = true;
     return {"sheet", "Draw many scenes into one picture, with their names", {std::move(scenes)}, std::move(groups), [options] {
-                auto scenes = with_models_named(options->scenes);
-                if (!scenes) return Result<int>(tl::unexpected(scenes.error()));
-                options->scenes = *std::move(scenes);
+                auto named = with_models_named(options->scenes);
+                if (!named) return Result<int>(tl::unexpected(named.error()));
+                options->scenes = *std::move(named);
                 return run_sheet(*options);
             }};
 }
