@@ -56,6 +56,7 @@ constexpr Decoder kDecoders[] = {
     {"EXT_texture_webp", "libwebp", has_webp},
     {"KHR_draco_mesh_compression", "Draco", has_draco},
     {"KHR_meshopt_compression", "meshoptimizer", has_meshopt},
+    {"KHR_texture_basisu", "libzstd", has_ktx2},
 };
 
 const Decoder* decoder_of(std::string_view name) {
@@ -94,9 +95,10 @@ constexpr LeftOut kLeftOut[] = {
 }  // namespace
 
 void choose_forms(file::File& file) {
-    if (has_webp())
-        for (file::Texture& texture : file.textures)
-            if (texture.webp >= 0) texture.source = texture.webp;
+    for (file::Texture& texture : file.textures) {
+        if (has_ktx2() && texture.basisu >= 0) texture.source = texture.basisu;
+        if (has_webp() && texture.webp >= 0) texture.source = texture.webp;
+    }
     if (!has_meshopt())
         for (file::BufferView& view : file.buffer_views) view.compressed = -1;
     if (!has_draco())
@@ -130,7 +132,6 @@ void check_versions(const file::File& file, bool strict) {
         const Decoder* decoder = decoder_of(name);
         if (!strict && decoder == nullptr) continue;  // what it adds to the picture is left out, with a warning
         if (decoder != nullptr) hint = fmt::format(": it needs the library {}, which this build lacks", decoder->library);
-        if (name == "KHR_texture_basisu") hint = " (KTX2 pictures; save the model with PNG, JPEG or WebP)";
         refuse("extensionsRequired", fmt::format("\"{}\" is not supported{}", printable(name, 80), hint));
     }
 }

@@ -19,7 +19,8 @@ void check_versions(const file::File& file, bool strict);
 /// does not list as used.
 void check_extensions(Document& document);
 
-/// Chooses between the two forms of a picture or a buffer view that a file may hold: WebP (EXT_texture_webp) and meshopt
+/// Chooses between the two forms of a picture or a buffer view that a file may hold: WebP (EXT_texture_webp), KTX2
+/// (KHR_texture_basisu) and meshopt
 /// (EXT_meshopt_compression) where this build has the library, otherwise the file's other picture or uncompressed view.
 void choose_forms(file::File& file);
 
