@@ -167,19 +167,3 @@ TEST_CASE("webp: a build without libwebp draws the other picture, or refuses by 
     REQUIRE(!required);
     CHECK(required.error().message.find("libwebp") != std::string::npos);
 }
-
-TEST_CASE("basisu: a texture's other picture is drawn, and a file that has none is refused by name", "[io]") {
-    const Bytes plain = png();
-    const std::string both = R"("source":0,"extensions":{"KHR_texture_basisu":{"source":0}})";
-    const LoadedScene loaded = load_ok(textured(plain, "image/png", both, R"(,"extensionsUsed":["KHR_texture_basisu"])"));
-    CHECK(loaded.scene.textures.size() == 1);
-    CHECK(loaded.warnings.size() == 1);
-    const std::string only = R"("extensions":{"KHR_texture_basisu":{"source":0}})";
-    const auto refused = load(textured(plain, "image/png", only, R"(,"extensionsRequired":["KHR_texture_basisu"])"));
-    REQUIRE(!refused);
-    CHECK(refused.error().message.find("KHR_texture_basisu") != std::string::npos);
-    CHECK(refused.error().message.find("KTX2") != std::string::npos);
-    const LoadedScene without = load_ok(textured(plain, "image/png", only));
-    CHECK(std::ranges::any_of(without.warnings, [](const std::string& w) { return w.find("KTX2") != std::string::npos; }));
-    CHECK(without.scene.textures.empty());
-}

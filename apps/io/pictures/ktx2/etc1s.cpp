@@ -99,8 +99,8 @@ std::uint32_t read_count(BitReader& bits, int digit) {
     return value;
 }
 
-using Palette4 = std::array<Rgba8, 4>;          ///< a block's colours, from dark to light
-using Pattern = std::array<std::uint8_t, 4>;    ///< a row each: two bits a pixel, the left one lowest
+using Palette4 = std::array<Rgba8, 4>;        ///< a block's colours, from dark to light
+using Pattern = std::array<std::uint8_t, 4>;  ///< a row each: two bits a pixel, the left one lowest
 
 /// The book of colours: a base colour of 5 bits a channel, and one of eight steps to the colours around it.
 bool read_endpoints(std::span<const std::byte> bytes, std::size_t count, std::vector<Palette4>& book) {
@@ -266,7 +266,7 @@ private:
 
     const Books& books_;
     BitReader bits_;
-    std::vector<std::uint32_t> above_;        ///< colours of the row above, and of this one as far as it goes
+    std::vector<std::uint32_t> above_;  ///< colours of the row above, and of this one as far as it goes
     std::vector<std::uint8_t> predictions_;
     std::vector<std::size_t> history_;
     std::size_t oldest_, row_ = 0;
@@ -283,8 +283,7 @@ struct Etc1sDecoder::State {
     Slice color;
     std::optional<Slice> alpha;
 
-    State(const Etc1sParts& parts, std::size_t blocks_a_row)
-        : is_sound(read_books(parts, books)), color(books, parts.color, blocks_a_row) {
+    State(const Etc1sParts& parts, std::size_t blocks_a_row) : is_sound(read_books(parts, books)), color(books, parts.color, blocks_a_row) {
         if (!parts.alpha.empty()) alpha.emplace(books, parts.alpha, blocks_a_row);
     }
 };

@@ -44,14 +44,15 @@ struct Plain {
     std::size_t channels;
     bool is_bgr;
 };
-constexpr Plain kPlains[] = {{9, 15, 1, false}, {16, 22, 2, false}, {23, 29, 3, false}, {30, 36, 3, true}, {37, 43, 4, false}, {44, 50, 4, true}};
+constexpr Plain kPlains[] = {{9, 15, 1, false}, {16, 22, 2, false}, {23, 29, 3, false},
+                             {30, 36, 3, true}, {37, 43, 4, false}, {44, 50, 4, true}};
 
 struct Ktx2 {
     std::size_t width = 0, height = 0;
-    std::uint32_t model = 0;        ///< kEtc1sModel or kUastcModel, if not plain
+    std::uint32_t model = 0;  ///< kEtc1sModel or kUastcModel, if not plain
     std::optional<Plain> plain;
     Scheme scheme = Scheme::none;
-    std::uint64_t unpacked = 0;     ///< bytes of the level without compression, as the file says
+    std::uint64_t unpacked = 0;  ///< bytes of the level without compression, as the file says
     std::span<const std::byte> level, globals;
     std::array<std::uint8_t, 4> channels{0, 1, 2, 3};  ///< of a plain picture: which one each of RGBA is; 4 is 0, and 5 is 1
 };
@@ -97,12 +98,15 @@ Result<Ktx2> read_ktx2(std::span<const std::byte> file, const ImageLimits& limit
         const auto descriptor = part(file, u32_at(file, 48), u32_at(file, 52));
         if (descriptor.size() <= kModelAt) return damaged("the data format descriptor is missing");
         ktx.model = byte_at(descriptor, kModelAt);
-        if (ktx.model != kEtc1sModel && ktx.model != kUastcModel) return damaged("colour model {} is not read, expected ETC1S or UASTC", ktx.model);
+        if (ktx.model != kEtc1sModel && ktx.model != kUastcModel)
+            return damaged("colour model {} is not read, expected ETC1S or UASTC", ktx.model);
         if ((ktx.model == kEtc1sModel) != (ktx.scheme == Scheme::basis_lz))
-            return damaged("supercompression scheme {} does not go with colour model {}", static_cast<std::uint32_t>(ktx.scheme), ktx.model);
+            return damaged("supercompression scheme {} does not go with colour model {}", static_cast<std::uint32_t>(ktx.scheme),
+                           ktx.model);
         return ktx;
     }
-    const auto* plain = std::find_if(std::begin(kPlains), std::end(kPlains), [&](const Plain& p) { return format == p.unorm || format == p.srgb; });
+    const auto* plain =
+        std::find_if(std::begin(kPlains), std::end(kPlains), [&](const Plain& p) { return format == p.unorm || format == p.srgb; });
     if (plain == std::end(kPlains) || ktx.scheme == Scheme::basis_lz)
         return damaged("vkFormat {} is not read, expected ETC1S, UASTC or plain channels of 8 bits", format);
     ktx.plain = *plain;
@@ -228,13 +232,15 @@ Result<void> decode_ktx2_rows(std::span<const std::byte> file, const ImageLimits
     if (!ktx) return tl::unexpected(ktx.error());
     bool is_whole = false;
     if (ktx->model == kEtc1sModel) {
-        const std::uint64_t layers = std::max(u32_at(file, 32), 1u), faces = std::max(u32_at(file, 36), 1u), levels = std::max(u32_at(file, 40), 1u);
+        const std::uint64_t layers = std::max(u32_at(file, 32), 1u), faces = std::max(u32_at(file, 36), 1u),
+                            levels = std::max(u32_at(file, 40), 1u);
         is_whole = layers * faces * levels <= UINT32_MAX && add_etc1s_rows(*ktx, static_cast<std::uint32_t>(layers * faces * levels), sink);
     } else {
         LevelBytes bytes(*ktx);
         if (ktx->scheme == Scheme::zlib) {
             const std::uint64_t most = 4 * std::uint64_t{limits.max_pixels};
-            if (ktx->unpacked > most) return fail(ErrorCode::limit, fmt::format("KTX2: a level of {} bytes, the limit is {}", ktx->unpacked, most));
+            if (ktx->unpacked > most)
+                return fail(ErrorCode::limit, fmt::format("KTX2: a level of {} bytes, the limit is {}", ktx->unpacked, most));
             if (!bytes.inflate_all(ktx->unpacked)) return damaged("the level's zlib stream is damaged");
         }
         is_whole = ktx->plain ? add_plain_rows(*ktx, bytes, sink) : add_uastc_rows(*ktx, bytes, sink);

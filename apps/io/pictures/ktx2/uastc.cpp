@@ -29,12 +29,12 @@ struct Mode {
 };
 constexpr int kSolid = 8;
 constexpr Mode kModes[] = {
-    {0x01, 4, 15, 0, 0, 1, 3, false, kTrit6, 4},  {0x35, 6, 15, 0, 0, 1, 3, false, kBits8, 2}, {0x1D, 5, 15, 5, 0, 2, 3, false, kBits4, 3},
-    {0x03, 5, 15, 4, 0, 3, 3, false, kTrit2, 2},  {0x13, 5, 15, 5, 0, 2, 3, false, kQuint3, 2}, {0x0B, 5, 15, 0, 0, 1, 3, false, kBits8, 3},
-    {0x1B, 5, 15, 0, 2, 1, 3, true, kQuint5, 2},  {0x07, 5, 15, 5, 0, 2, 3, false, kQuint3, 2}, {0x17, 5, 0, 0, 0, 1, 4, false, kBits8, 0},
-    {0x0F, 5, 23, 5, 0, 2, 4, false, kBits4, 2},  {0x02, 3, 17, 0, 0, 1, 4, false, kTrit4, 4}, {0x00, 2, 17, 0, 2, 1, 4, true, kTrit4, 2},
-    {0x06, 3, 17, 0, 0, 1, 4, false, kTrit6, 3},  {0x1F, 5, 23, 0, 2, 1, 4, true, kBits8, 1},  {0x0D, 5, 23, 0, 0, 1, 4, false, kBits8, 2},
-    {0x05, 7, 23, 0, 0, 1, 2, false, kBits8, 4},  {0x15, 6, 23, 5, 0, 2, 2, false, kBits8, 2}, {0x25, 6, 23, 0, 0, 1, 2, true, kBits8, 2},
+    {0x01, 4, 15, 0, 0, 1, 3, false, kTrit6, 4}, {0x35, 6, 15, 0, 0, 1, 3, false, kBits8, 2},  {0x1D, 5, 15, 5, 0, 2, 3, false, kBits4, 3},
+    {0x03, 5, 15, 4, 0, 3, 3, false, kTrit2, 2}, {0x13, 5, 15, 5, 0, 2, 3, false, kQuint3, 2}, {0x0B, 5, 15, 0, 0, 1, 3, false, kBits8, 3},
+    {0x1B, 5, 15, 0, 2, 1, 3, true, kQuint5, 2}, {0x07, 5, 15, 5, 0, 2, 3, false, kQuint3, 2}, {0x17, 5, 0, 0, 0, 1, 4, false, kBits8, 0},
+    {0x0F, 5, 23, 5, 0, 2, 4, false, kBits4, 2}, {0x02, 3, 17, 0, 0, 1, 4, false, kTrit4, 4},  {0x00, 2, 17, 0, 2, 1, 4, true, kTrit4, 2},
+    {0x06, 3, 17, 0, 0, 1, 4, false, kTrit6, 3}, {0x1F, 5, 23, 0, 2, 1, 4, true, kBits8, 1},   {0x0D, 5, 23, 0, 0, 1, 4, false, kBits8, 2},
+    {0x05, 7, 23, 0, 0, 1, 2, false, kBits8, 4}, {0x15, 6, 23, 5, 0, 2, 2, false, kBits8, 2},  {0x25, 6, 23, 0, 0, 1, 2, true, kBits8, 2},
     {0x09, 4, 15, 0, 0, 1, 3, false, kBits5, 5},
 };
 constexpr std::size_t kModeCount = std::size(kModes);
@@ -45,7 +45,8 @@ constexpr auto kModeOf = [] {
     std::array<std::uint8_t, 1 << kMostCodeBits> modes{};
     modes.fill(kModeCount);
     for (std::size_t i = 0; i < kModeCount; ++i)
-        for (std::size_t bits = static_cast<std::size_t>(kModes[i].code); bits < modes.size(); bits += std::size_t{1} << kModes[i].code_bits)
+        for (std::size_t bits = static_cast<std::size_t>(kModes[i].code); bits < modes.size();
+             bits += std::size_t{1} << kModes[i].code_bits)
             modes[bits] = static_cast<std::uint8_t>(i);
     return modes;
 }();
@@ -125,7 +126,8 @@ Block decode_uastc(std::span<const std::byte, kUastcBytes> bytes) {
     }
     block.get(mode.hint_bits);
     Subsets subsets{};
-    if (const std::uint32_t pattern = block.get(mode.pattern_bits); mode.subsets > 1 && !find_subsets(index, pattern, subsets)) return pixels;
+    if (const std::uint32_t pattern = block.get(mode.pattern_bits); mode.subsets > 1 && !find_subsets(index, pattern, subsets))
+        return pixels;
     const std::uint32_t chosen = block.get(mode.plane_bits);
     const std::size_t apart = !mode.has_two_planes ? 4 : mode.channels == 2 ? 3 : chosen;  // the channel of the second plane
 
