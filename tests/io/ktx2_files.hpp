@@ -13,8 +13,7 @@ inline constexpr const char* kEtc1sGlobals =
     "gZ0AYAIAAAAAAAABBAA=";
 
 /// Its two slices.
-inline constexpr const char* kEtc1sLevel =
-    "DM9AIacmq3iJHb2bv8x6lRmkXLLcCDA8aFILsOAP7OPeR11VqxTrsEmd5tg422Y5ovgfOU99C9A8KC+XmApD";
+inline constexpr const char* kEtc1sLevel = "DM9AIacmq3iJHb2bv8x6lRmkXLLcCDA8aFILsOAP7OPeR11VqxTrsEmd5tg422Y5ovgfOU99C9A8KC+XmApD";
 
 /// Its pixels.
 inline constexpr const char* kEtc1sPixels =

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string_view>
 #endif
@@ -119,8 +120,10 @@ Result<Ktx2> read_ktx2(std::span<const std::byte> file, const ImageLimits& limit
 class LevelBytes {
 public:
     explicit LevelBytes(const Ktx2& ktx) : rest_(ktx.level) {
-        if (ktx.scheme == Scheme::zstd) stream_.reset(ZSTD_createDStream());
-        is_zstd_ = ktx.scheme == Scheme::zstd;
+        constexpr int kWindowBits = 28;  // a level of plain channels of 64 million pixels may be its own window
+        if (ktx.scheme != Scheme::zstd) return;
+        stream_.reset(ZSTD_createDStream());
+        if (!stream_ || ZSTD_isError(ZSTD_DCtx_setParameter(stream_.get(), ZSTD_d_windowLogMax, kWindowBits)) != 0) throw std::bad_alloc();
     }
     /// Unpacks all of a level that zlib has compressed. False: it is damaged.
     bool inflate_all(std::uint64_t size) {
@@ -131,13 +134,12 @@ public:
     }
     /// False: there are no more, or they are damaged.
     [[nodiscard]] bool read(std::span<std::uint8_t> to) {
-        if (!is_zstd_) {
+        if (!stream_) {
             if (rest_.size() < to.size()) return false;
             std::memcpy(to.data(), rest_.data(), to.size());
             rest_ = rest_.subspan(to.size());
             return true;
         }
-        if (!stream_) return false;
         ZSTD_outBuffer out{to.data(), to.size(), 0};
         ZSTD_inBuffer in{rest_.data(), rest_.size(), 0};
         for (bool is_stuck = false; out.pos < out.size && !is_stuck;) {
@@ -157,7 +159,6 @@ private:
     std::span<const std::byte> rest_;
     std::vector<std::uint8_t> whole_;
     std::unique_ptr<ZSTD_DStream, Free> stream_;
-    bool is_zstd_ = false;
 };
 
 bool add_plain_rows(const Ktx2& ktx, LevelBytes& bytes, RowSink& sink) {
@@ -238,9 +239,9 @@ Result<void> decode_ktx2_rows(std::span<const std::byte> file, const ImageLimits
     } else {
         LevelBytes bytes(*ktx);
         if (ktx->scheme == Scheme::zlib) {
-            const std::uint64_t most = 4 * std::uint64_t{limits.max_pixels};
-            if (ktx->unpacked > most)
-                return fail(ErrorCode::limit, fmt::format("KTX2: a level of {} bytes, the limit is {}", ktx->unpacked, most));
+            constexpr std::uint64_t kMostRatio = 1032;  // of deflate
+            if (ktx->unpacked > std::min(4 * std::uint64_t{limits.max_pixels}, kMostRatio * ktx->level.size()))
+                return damaged("a level of {} bytes is too large", ktx->unpacked);
             if (!bytes.inflate_all(ktx->unpacked)) return damaged("the level's zlib stream is damaged");
         }
         is_whole = ktx->plain ? add_plain_rows(*ktx, bytes, sink) : add_uastc_rows(*ktx, bytes, sink);
