@@ -19,6 +19,11 @@ using namespace halflit::test;
 
 namespace {
 
+constexpr const char* kWebpSource = R"("extensions":{"EXT_texture_webp":{"source":0}})";
+constexpr const char* kRequired = R"(,"extensionsUsed":["EXT_texture_webp"],"extensionsRequired":["EXT_texture_webp"])";
+
+#if HALFLIT_HAS_WEBP
+
 constexpr int kWidth = 37, kHeight = 21;
 
 /// Gradients and stripes, with alpha from 0 to 255.
@@ -39,25 +44,6 @@ Bytes png() {
         return std::uint32_t{rgba[4 * (y * kWidth + x) + static_cast<std::uint32_t>(c)]};
     });
 }
-
-/// A triangle whose base colour has a texture; `texture` are the texture's members, and images[0] is `image`.
-Bytes textured(const Bytes& image, const std::string& type, const std::string& texture, const std::string& rest = "") {
-    TriangleFile file;
-    Bytes uv;
-    append<float>(uv, {0, 0, 1, 0, 0, 1});
-    const int at = file.add(uv, R"("componentType":5126,"count":3,"type":"VEC2")");
-    file.attributes += ",\"TEXCOORD_0\":" + std::to_string(at);
-    file.primitive = ",\"material\":0";
-    const std::string uri = "data:" + type + ";base64," + base64(image);
-    file.rest = R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{)" + texture +
-                R"(}],"images":[{"uri":")" + uri + "\"}]" + rest;
-    return file.file();
-}
-
-constexpr const char* kWebpSource = R"("extensions":{"EXT_texture_webp":{"source":0}})";
-constexpr const char* kRequired = R"(,"extensionsUsed":["EXT_texture_webp"],"extensionsRequired":["EXT_texture_webp"])";
-
-#if HALFLIT_HAS_WEBP
 
 /// quality: 0 to 100, or -1 for a picture without loss.
 Bytes webp(float quality) {

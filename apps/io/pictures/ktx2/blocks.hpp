@@ -20,7 +20,8 @@ Block decode_uastc(std::span<const std::byte, kUastcBytes> bytes);
 struct Etc1sParts {
     std::uint32_t endpoint_count = 0, selector_count = 0;
     std::span<const std::byte> endpoints, selectors, tables;  ///< the books of colours and of patterns, and the slices' Huffman tables
-    std::span<const std::byte> color, alpha;                  ///< slices; alpha is empty for an opaque texture
+    std::span<const std::byte> color, alpha;                  ///< slices
+    bool has_alpha = false;
 };
 
 /// Decodes an ETC1S texture by rows of blocks.

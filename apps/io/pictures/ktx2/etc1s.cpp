@@ -284,7 +284,7 @@ struct Etc1sDecoder::State {
     std::optional<Slice> alpha;
 
     State(const Etc1sParts& parts, std::size_t blocks_a_row) : is_sound(read_books(parts, books)), color(books, parts.color, blocks_a_row) {
-        if (!parts.alpha.empty()) alpha.emplace(books, parts.alpha, blocks_a_row);
+        if (parts.has_alpha) alpha.emplace(books, parts.alpha, blocks_a_row);
     }
 };
 

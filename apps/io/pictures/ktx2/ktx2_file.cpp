@@ -208,7 +208,7 @@ bool add_etc1s_rows(const Ktx2& ktx, std::uint32_t images, RowSink& sink) {
     const auto slice = [&](std::size_t at) { return part(ktx.level, u32_at(ktx.globals, at), u32_at(ktx.globals, at + 4)); };
     Etc1sParts parts;
     parts.endpoint_count = u16_at(ktx.globals, 0), parts.selector_count = u16_at(ktx.globals, 2);
-    parts.color = slice(kHead + 4), parts.alpha = slice(kHead + 12);
+    parts.color = slice(kHead + 4), parts.alpha = slice(kHead + 12), parts.has_alpha = u32_at(ktx.globals, kHead + 16) != 0;
     std::uint64_t at = kHead + kImage * std::uint64_t{images};
     std::size_t size_at = 4;
     for (auto* bytes : {&parts.endpoints, &parts.selectors, &parts.tables}) {
