@@ -50,13 +50,12 @@ struct Decoder {
     std::string_view extension;
     const char* library;
     bool (*is_there)();
+    bool is_of_pictures = false;  ///< without it, surfaces are drawn plain
 };
 constexpr Decoder kDecoders[] = {
-    {"EXT_meshopt_compression", "meshoptimizer", has_meshopt},
-    {"EXT_texture_webp", "libwebp", has_webp},
-    {"KHR_draco_mesh_compression", "Draco", has_draco},
-    {"KHR_meshopt_compression", "meshoptimizer", has_meshopt},
-    {"KHR_texture_basisu", "libzstd", has_ktx2},
+    {"EXT_meshopt_compression", "meshoptimizer", has_meshopt}, {"EXT_texture_webp", "libwebp", has_webp, true},
+    {"KHR_draco_mesh_compression", "Draco", has_draco},        {"KHR_meshopt_compression", "meshoptimizer", has_meshopt},
+    {"KHR_texture_basisu", "libzstd", has_ktx2, true},
 };
 
 const Decoder* decoder_of(std::string_view name) {
@@ -130,7 +129,8 @@ void check_versions(const file::File& file, bool strict) {
         if (is_supported(name)) continue;
         std::string hint;
         const Decoder* decoder = decoder_of(name);
-        if (!strict && decoder == nullptr) continue;  // what it adds to the picture is left out, with a warning
+        if (!strict && (decoder == nullptr || decoder->is_of_pictures))
+            continue;  // what it adds to the picture is left out, with a warning
         if (decoder != nullptr) hint = fmt::format(": it needs the library {}, which this build lacks", decoder->library);
         refuse("extensionsRequired", fmt::format("\"{}\" is not supported{}", printable(name, 80), hint));
     }

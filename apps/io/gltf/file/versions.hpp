@@ -11,7 +11,7 @@ namespace halflit::io::detail {
 [[nodiscard]] bool is_supported(std::string_view extension);
 
 /// Throws LoadFailure for another major version, a minimum above 2.0, or a required extension that is not supported; unless `strict`, of
-/// these only for one without whose library the data cannot be read, and not for a version that is not there.
+/// these only for one without whose library shapes cannot be read, and not for a version that is not there.
 /// A later minor version without a minimum loads: by the specification a 2.0 reader can draw it.
 void check_versions(const file::File& file, bool strict);
 
