@@ -33,32 +33,10 @@ struct Ktx2Maker {
     [[nodiscard]] Bytes file() const {
         constexpr std::uint32_t kAt = 104, kDescriptor = 44;
         Bytes out = to_bytes("\xABKTX 20\xBB\r\n\x1A\n");
-        const auto pairs_at = kAt + kDescriptor, globals_at = pairs_at + static_cast<std::uint32_t>(pairs.size()),
-                   level_at = globals_at + static_cast<std::uint32_t>(globals.size());
-        for (const std::uint32_t v : {format,
-                                      1u,
-                                      width,
-                                      height,
-                                      0u,
-                                      layers,
-                                      1u,
-                                      1u,
-                                      scheme,
-                                      kAt,
-                                      kDescriptor,
-                                      pairs_at,
-                                      static_cast<std::uint32_t>(pairs.size()),
-                                      globals_at,
-                                      0u,
-                                      static_cast<std::uint32_t>(globals.size()),
-                                      0u,
-                                      level_at,
-                                      0u,
-                                      static_cast<std::uint32_t>(level.size()),
-                                      0u,
-                                      static_cast<std::uint32_t>(unpacked),
-                                      0u})
-            append_u32(out, v);
+        const auto size = [](const Bytes& part) { return static_cast<std::uint32_t>(part.size()); };
+        const std::uint32_t pairs_at = kAt + kDescriptor, globals_at = pairs_at + size(pairs), level_at = globals_at + size(globals);
+        append<std::uint32_t>(out, {format, 1, width, height, 0, layers, 1, 1, scheme, kAt, kDescriptor, pairs_at, size(pairs)});
+        append<std::uint64_t>(out, {globals_at, size(globals), level_at, size(level), unpacked});
         append<std::uint32_t>(out, {kDescriptor, 0, 40u << 16 | 2, model, 0, 0, 0, 0, 0, 0, 0});
         for (const Bytes* part : {&pairs, &globals, &level}) out.insert(out.end(), part->begin(), part->end());
         return out;
@@ -67,11 +45,22 @@ struct Ktx2Maker {
 
 constexpr std::uint32_t kEtc1s = 163, kUastc = 166, kBasisLz = 1, kZstd = 2, kZlib = 3;
 
+Ktx2Maker uastc() { return {.width = 76, .height = 4, .model = kUastc, .level = decoded(kUastcBlocks), .unpacked = 304}; }
+
+/// A model whose base colour is `image` by KHR_texture_basisu, which it requires unless it has another picture, of 3 x 3 pixels.
+Bytes model_of(const Bytes& image, bool has_other) {
+    const std::string texture = R"("extensions":{"KHR_texture_basisu":{"source":0}})", used = R"(,"extensionsUsed":["KHR_texture_basisu"])";
+    if (!has_other) return textured(image, "image/ktx2", texture, used + R"(,"extensionsRequired":["KHR_texture_basisu"])");
+    const Bytes other = make_png(PngSpec{3, 3, 8, 6, false, {}, {}}, [](auto, auto, int) { return 0u; });
+    return textured(image, "image/ktx2", "\"source\":1," + texture, used, R"(,{"uri":"data:image/png;base64,)" + base64(other) + "\"}");
+}
+
+#if HALFLIT_HAS_KTX2
+
 Ktx2Maker etc1s() {
     return {
         .width = 22, .height = 18, .scheme = kBasisLz, .model = kEtc1s, .level = decoded(kEtc1sLevel), .globals = decoded(kEtc1sGlobals)};
 }
-Ktx2Maker uastc() { return {.width = 76, .height = 4, .model = kUastc, .level = decoded(kUastcBlocks), .unpacked = 304}; }
 
 Bytes pixels_of(const Bytes& file) {
     const auto image = io::decode_image(file);
@@ -81,13 +70,7 @@ Bytes pixels_of(const Bytes& file) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// A model whose base colour is `image` by KHR_texture_basisu, which it requires unless it has another picture, of 3 x 3 pixels.
-Bytes model_of(const Bytes& image, bool has_other) {
-    const std::string texture = R"("extensions":{"KHR_texture_basisu":{"source":0}})", used = R"(,"extensionsUsed":["KHR_texture_basisu"])";
-    if (!has_other) return textured(image, "image/ktx2", texture, used + R"(,"extensionsRequired":["KHR_texture_basisu"])");
-    const Bytes other = make_png(PngSpec{3, 3, 8, 6, false, {}, {}}, [](auto, auto, int) { return 0u; });
-    return textured(image, "image/ktx2", "\"source\":1," + texture, used, R"(,{"uri":"data:image/png;base64,)" + base64(other) + "\"}");
-}
+#endif
 
 }  // namespace
 
