@@ -1,6 +1,6 @@
 // KTX2 textures, by the KTX specification 2.0: the largest level of the first layer and face, of plain 8-bit channels or of Basis Universal
-// (ETC1S, UASTC LDR), as they are or compressed by BasisLZ, Zstandard or zlib. Files without libzstd's library are not read at all, so that
-// what a build reads does not depend on how a texture was compressed.
+// (ETC1S, UASTC LDR), as they are or compressed by BasisLZ, Zstandard or zlib. A build without libzstd reads none, so that what it reads
+// does not depend on how a texture was compressed.
 #include "apps/io/files/optional_libraries.hpp"
 #include "apps/io/pictures/image_decoders.hpp"
 
@@ -202,14 +202,14 @@ bool add_uastc_rows(const Ktx2& ktx, LevelBytes& bytes, RowSink& sink) {
     });
 }
 
-bool add_etc1s_rows(const Ktx2& ktx, std::uint32_t images, RowSink& sink) {
+bool add_etc1s_rows(const Ktx2& ktx, std::uint64_t images, RowSink& sink) {
     constexpr std::size_t kHead = 20, kImage = 20;
     if (ktx.globals.size() < kHead + kImage) return false;
     const auto slice = [&](std::size_t at) { return part(ktx.level, u32_at(ktx.globals, at), u32_at(ktx.globals, at + 4)); };
     Etc1sParts parts;
     parts.endpoint_count = u16_at(ktx.globals, 0), parts.selector_count = u16_at(ktx.globals, 2);
     parts.color = slice(kHead + 4), parts.alpha = slice(kHead + 12), parts.has_alpha = u32_at(ktx.globals, kHead + 16) != 0;
-    std::uint64_t at = kHead + kImage * std::uint64_t{images};
+    std::uint64_t at = kHead + kImage * images;
     std::size_t size_at = 4;
     for (auto* bytes : {&parts.endpoints, &parts.selectors, &parts.tables}) {
         const std::uint32_t size = u32_at(ktx.globals, size_at);
@@ -233,9 +233,10 @@ Result<void> decode_ktx2_rows(std::span<const std::byte> file, const ImageLimits
     if (!ktx) return tl::unexpected(ktx.error());
     bool is_whole = false;
     if (ktx->model == kEtc1sModel) {
-        const std::uint64_t layers = std::max(u32_at(file, 32), 1u), faces = std::max(u32_at(file, 36), 1u),
-                            levels = std::max(u32_at(file, 40), 1u);
-        is_whole = layers * faces * levels <= UINT32_MAX && add_etc1s_rows(*ktx, static_cast<std::uint32_t>(layers * faces * levels), sink);
+        // Layers, faces and levels, each of which has an entry. Too many lead out of the file.
+        std::uint64_t images = 1;
+        for (const std::size_t at : {32, 36, 40}) images *= std::max(u32_at(file, at), 1u);
+        is_whole = add_etc1s_rows(*ktx, images, sink);
     } else {
         LevelBytes bytes(*ktx);
         if (ktx->scheme == Scheme::zlib) {
