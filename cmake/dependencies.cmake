@@ -26,6 +26,7 @@ set(halflit_rows
     "Draco         io      1.5.5  1.5.7   libdraco-dev         PkgConfig::Draco      pkg-config draco"
     "meshoptimizer io      0.18   0.22    libmeshoptimizer-dev meshoptimizer::meshoptimizer find_package meshoptimizer"
     "libwebp       io      1.2.4  1.6.0   libwebp-dev          PkgConfig::libwebp    pkg-config libwebp"
+    "zstd          io      1.5    1.5.7   libzstd-dev          PkgConfig::zstd       pkg-config libzstd"
     "CLI11         program 2.1.2  2.6.1   libcli11-dev         CLI11::CLI11          find_package CLI11"
     "nlohmann_json program 3.11   3.12    nlohmann-json3-dev   nlohmann_json::nlohmann_json find_package nlohmann_json"
     "GIF           program 5.1    6.1.3   libgif-dev           GIF::GIF              find_package GIF"

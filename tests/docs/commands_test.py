@@ -47,7 +47,7 @@ def damaged_models(folder, program):
     for name, uri in (("lost", "lost.bin"), ("above", "../lost.bin")):
         (folder / f"{name}.gltf").write_text(json.dumps({**triangle, "buffers": [{"uri": uri, "byteLength": 36}]}))
     uri = "data:application/octet-stream;base64," + "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
-    (folder / "ktx2.gltf").write_text(json.dumps({**triangle, "extensionsUsed": ["KHR_texture_basisu"],
+    (folder / "avif.gltf").write_text(json.dumps({**triangle, "extensionsUsed": ["EXT_texture_avif"],
                                                   "buffers": [{"uri": uri, "byteLength": 36}]}))
 
 

@@ -1,4 +1,4 @@
-// Bytes as a picture of a texture: PNG or JPEG, at 8 bits and at 16.
+// Bytes as a picture of a texture: PNG, JPEG or KTX2, at 8 bits and at 16.
 #include "tests/fuzz/loading.hpp"
 #include "tests/fuzz/mutate.hpp"
 
@@ -37,6 +37,6 @@ void run(View input) {
 
 }  // namespace
 
-const FuzzTarget kPicture{"picture", 16384, run, mutate_picture};
+const FuzzTarget kPicture{"picture", 16384, run, mutate_picture}, kKtx2{"ktx2", 4096, run};
 
 }  // namespace halflit::fuzz

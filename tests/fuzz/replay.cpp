@@ -13,7 +13,7 @@ using namespace halflit::fuzz;
 
 namespace {
 
-constexpr const FuzzTarget* kTargets[] = {&kGltfText, &kGlb, &kModel, &kPicture, &kHdr, &kScene, &kCApi};
+constexpr const FuzzTarget* kTargets[] = {&kGltfText, &kGlb, &kModel, &kPicture, &kKtx2, &kHdr, &kScene, &kCApi};
 
 Random& mutations() {
     static Random random(1);

@@ -124,6 +124,13 @@ MESHOPT_VERTICES = bytes.fromhex(
     '000000')
 MESHOPT_TRIANGLES = bytes.fromhex('e0f010007687566778a9866589689801690000')
 MESHOPT_INDICES = bytes.fromhex('d000040400020800000000')
+# Of Basis Universal's encoder: a book of 20 colours, one of 18 patterns, and the slices of colour and alpha of 20 x 12 pixels.
+ETC1S_BOOKS = bytes.fromhex(
+    '140012004e00000049000000380000000000000000000000000000000d0000000d0000000c00000020c01c00010088000078e5bf64b318f900de000c003004db317e'
+    '04a18d0e204ec000000020e8d5080c0e802900000000802088865998d76f63861537b9f86f32683df9efb3a1aa004052670100005455050040454545055055558554'
+    '5353d3d2d2d2d2d0d0d0d8d8d8d8b8b8b8b8a8aeaeaef6acafafb7b4ecef2f2dfdffafaf7f7dfd2f2d2d2d4f4f4f4fcfcfcf5753a3a646b7b2b20200419c80010000'
+    '405054a35b424e87023005000000001004c568d803bc951c0020201a2788f5118572fc01ca090026000000000000104000')
+ETC1S_SLICES = bytes.fromhex('ae12a57915520f5732884bed0cc9b161bca2bbff9ad0e0e000')
 
 
 def pictures():
@@ -152,6 +159,27 @@ def pictures():
     out['jpeg_ycck'] = jpeg(9, 8, 4, adobe=2)
     out['jpeg_rgb'] = jpeg(9, 8, 3, adobe=0)
     out.update(webp=WEBP, webp_lossy=WEBP_LOSSY)
+    return out
+
+
+def ktx2(width, height, level, format=0, model=0, scheme=0, books=b''):
+    """One level: its place, a descriptor and a key stand before it."""
+    descriptor = struct.pack('<3I4B', 44, 0, 40 << 16 | 2, model, 1, 2, 0).ljust(44, b'\0')
+    pairs = struct.pack('<I', 16) + b'KTXswizzle\0rg0r\0'
+    at = 104 + len(descriptor) + len(pairs)
+    places = struct.pack('<4I5Q', 104, len(descriptor), 104 + len(descriptor), len(pairs), at, len(books), at + len(books), len(level), 304)
+    return (b'\xabKTX 20\xbb\r\n\x1a\n' + struct.pack('<9I', format, 1, width, height, 0, 0, 1, 1, scheme) + places + descriptor + pairs +
+            books + level)
+
+
+def ktx2_files():
+    codes = (0x01, 0x35, 0x1D, 0x03, 0x13, 0x0B, 0x1B, 0x07, 0x17, 0x0F, 0x02, 0x00, 0x06, 0x1F, 0x0D, 0x05, 0x15, 0x25, 0x09)
+    blocks = b''.join(bytes([code]) + bytes((code * i) & 0x7F for i in range(15)) for code in codes)
+    # A frame of Zstandard with one block that is not compressed.
+    frame = b'\x28\xb5\x2f\xfd\x60' + struct.pack('<H', len(blocks) - 256) + struct.pack('<I', len(blocks) << 3 | 1)[:3] + blocks
+    out = {'etc1s': ktx2(20, 12, ETC1S_SLICES, model=163, scheme=1, books=ETC1S_BOOKS), 'uastc': ktx2(76, 4, blocks, model=166),
+           'uastc_zstd': ktx2(76, 4, frame, model=166, scheme=2), 'uastc_zlib': ktx2(76, 4, zlib.compress(blocks, 0), model=166, scheme=3)}
+    out.update({f'plain_{format}': ktx2(5, 4, blocks, format) for format in (9, 16, 29, 30, 37, 50)})
     return out
 
 
@@ -424,6 +452,7 @@ def main():
         'glb': {name: model.glb() for name, model in made.items()},
         'model': other_models(),
         'picture': pictures(),
+        'ktx2': ktx2_files(),
         'hdr': environments(),
         'scene': {**{f'{name}_{i}': model.glb() + numbers.randbytes(FLAG_BYTES) for name, model in made.items() for i in range(2)},
                   **{f'code_{i}': numbers.randbytes(700 + FLAG_BYTES) for i in range(8)}},

@@ -53,7 +53,7 @@ inline void mutate_bytes(Bytes& bytes, std::size_t max_bytes) {
     bytes.resize(LLVMFuzzerMutate(bytes.data(), size, max_bytes));
 }
 
-extern const FuzzTarget kGltfText, kGlb, kModel, kPicture, kHdr, kScene, kCApi;
+extern const FuzzTarget kGltfText, kGlb, kModel, kPicture, kKtx2, kHdr, kScene, kCApi;
 
 /// A promise that the input broke: the fuzzer keeps the input.
 #define HALFLIT_PROMISE(condition)                                                               \

@@ -140,6 +140,21 @@ struct TriangleFile {
     int count = 0;
 };
 
+/// A triangle whose base colour has a texture; `texture` are the texture's members, images[0] is `image`, and `images` are further ones,
+/// beginning with a comma.
+inline Bytes textured(const Bytes& image, const std::string& type, const std::string& texture, const std::string& rest = "",
+                      const std::string& images = "") {
+    TriangleFile file;
+    Bytes uv;
+    append<float>(uv, {0, 0, 1, 0, 0, 1});
+    const int at = file.add(uv, R"("componentType":5126,"count":3,"type":"VEC2")");
+    file.attributes += ",\"TEXCOORD_0\":" + std::to_string(at);
+    file.primitive = ",\"material\":0";
+    file.rest = R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{)" + texture +
+                R"(}],"images":[{"uri":"data:)" + type + ";base64," + base64(image) + "\"}" + images + "]" + rest;
+    return file.file();
+}
+
 /// What a damaged file may be refused with: a fault or a limit, in one line.
 inline void check_refusal(const Error& error) {
     if (error.code != ErrorCode::bad_input && error.code != ErrorCode::limit)

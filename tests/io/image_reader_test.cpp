@@ -323,7 +323,7 @@ TEST_CASE("pictures: of one that is cut off, the rows before are added where dam
 
 TEST_CASE("image reader: other formats are refused by name", "[io]") {
     CHECK(decode_image(to_bytes("RIFF....WEBPVP8 ")).error().message.find("WebP") != std::string::npos);
-    CHECK(decode_image(to_bytes("\xABKTX 20\xBB")).error().message.find("found KTX2") != std::string::npos);
+    CHECK(decode_image(to_bytes("GIF89a")).error().message.find("found GIF") != std::string::npos);
     CHECK(decode_image({}).error().code == ErrorCode::bad_input);
     CHECK(decode_image(to_bytes("hello")).error().message.find("68 65 6c 6c") != std::string::npos);
 }

@@ -23,7 +23,7 @@ import picture_hash  # noqa: E402
 OLDEST_GLIBC = 25
 MOST_BYTES = 17_000_000
 OF_SYSTEM = re.compile(r"^lib(c|m|dl|pthread|rt)\.so")
-LINKED = ("draco", "expat", "fmtlib", "gcc-12-base", "giflib", "imath", "libdeflate", "libjpeg-turbo", "libspng", "libwebp",
+LINKED = ("draco", "expat", "fmtlib", "gcc-12-base", "giflib", "imath", "libdeflate", "libjpeg-turbo", "libspng", "libwebp", "libzstd",
           "meshoptimizer", "openexr", "zlib")  # fmt: skip
 PACKAGES, PROGRAM, KNOT = sys.argv[1:] if len(sys.argv) == 4 else ("", "", "")
 SCENES = (

@@ -4,8 +4,9 @@
 namespace halflit::io {
 
 /// @{
-/// True where the build has the library: libwebp, Draco, meshoptimizer.
+/// True where the build has the library: libwebp, libzstd, Draco, meshoptimizer.
 [[nodiscard]] bool has_webp();
+[[nodiscard]] bool has_ktx2();
 [[nodiscard]] bool has_draco();
 [[nodiscard]] bool has_meshopt();
 /// @}

@@ -17,19 +17,20 @@ bool starts_with(std::span<const std::byte> file, std::span<const std::uint8_t> 
                                                       [](std::uint8_t a, std::byte b) { return a == static_cast<std::uint8_t>(b); });
 }
 
-constexpr const char* kExpected = "PNG, JPEG, WebP, BMP or TIFF";
+constexpr const char* kExpected = "PNG, JPEG, WebP, BMP, TIFF or KTX2";
 
 Result<ImageFormat> format_of(std::span<const std::byte> file) {
     static constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}, kJpeg[] = {0xFF, 0xD8, 0xFF};
     static constexpr std::uint8_t kRiff[] = {'R', 'I', 'F', 'F'}, kWebp[] = {'W', 'E', 'B', 'P'},
-                                  kKtx2[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0'}, kGif[] = {'G', 'I', 'F', '8'}, kBmp[] = {'B', 'M'};
+                                  kKtx2[] = {0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, '\r', '\n', 0x1A, '\n'},
+                                  kGif[] = {'G', 'I', 'F', '8'}, kBmp[] = {'B', 'M'};
     if (starts_with(file, kPng)) return ImageFormat::png;
     if (starts_with(file, kJpeg)) return ImageFormat::jpeg;
     if (starts_with(file, kRiff) && file.size() >= 12 && starts_with(file.subspan(8), kWebp)) return ImageFormat::webp;
     if (starts_with(file, kBmp)) return ImageFormat::bmp;
     if (detail::is_tiff(file)) return ImageFormat::tiff;
-    const char* other = starts_with(file, kKtx2) ? "KTX2" : starts_with(file, kGif) ? "GIF" : nullptr;
-    if (other != nullptr) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found {}", kExpected, other));
+    if (starts_with(file, kKtx2)) return ImageFormat::ktx2;
+    if (starts_with(file, kGif)) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found GIF", kExpected));
     if (file.empty()) return fail(ErrorCode::bad_input, fmt::format("expected a {} picture, found nothing", kExpected));
     std::string bytes;
     for (const std::byte b : file.first(std::min<std::size_t>(file.size(), 4))) bytes += fmt::format(" {:02x}", static_cast<unsigned>(b));
@@ -72,6 +73,7 @@ Result<ImageHeader> read_image_header(std::span<const std::byte> file, const Ima
     if (*format == ImageFormat::webp) return detail::read_webp_header(file, limits);
     if (*format == ImageFormat::bmp) return detail::read_bmp_header(file, limits);
     if (*format == ImageFormat::tiff) return detail::read_tiff_header(file, limits);
+    if (*format == ImageFormat::ktx2) return detail::read_ktx2_header(file, limits);
     return *format == ImageFormat::png ? detail::read_png_header(file, limits) : detail::read_jpeg_header(file, limits);
 }
 
@@ -82,10 +84,10 @@ Result<DecodedImage> decode_image(std::span<const std::byte> file, const ImageLi
     if (*format == ImageFormat::bmp) return detail::decode_bmp(file, limits);
     if (*format == ImageFormat::tiff) return detail::decode_tiff(file, limits);
     if (*format == ImageFormat::png) return detail::decode_png(file, limits, keep_16_bits);
-    const auto header = detail::read_jpeg_header(file, limits);
+    const auto header = read_image_header(file, limits);
     if (!header) return tl::unexpected(header.error());
     detail::WholePicture whole(header->width, header->height);
-    if (auto done = detail::decode_jpeg_rows(file, limits, whole); !done) return tl::unexpected(done.error());
+    if (auto done = decode_rows(file, limits, keep_16_bits, whole); !done) return tl::unexpected(done.error());
     return std::move(whole.image);
 }
 
@@ -98,6 +100,7 @@ Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& lim
         if (*added) return {};
     }
     if (*format == ImageFormat::jpeg) return detail::decode_jpeg_rows(file, limits, sink);
+    if (*format == ImageFormat::ktx2) return detail::decode_ktx2_rows(file, limits, sink);
     const auto image = decode_image(file, limits, keep_16_bits);
     if (!image) return tl::unexpected(image.error());
     detail::add_rows(*image, sink);

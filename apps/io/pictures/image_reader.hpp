@@ -1,4 +1,4 @@
-// Decoding of PNG, JPEG, WebP, BMP and TIFF pictures in memory. Limits are checked on the header, before pixels are decoded.
+// Decoding of PNG, JPEG, WebP, BMP, TIFF and KTX2 pictures in memory. Limits are checked on the header, before pixels are decoded.
 #pragma once
 
 #include "halflit/error.hpp"
@@ -18,7 +18,7 @@ struct ImageLimits {
     bool keep_damaged = false;  ///< decode_rows adds the rows of a damaged picture that can be read, before it returns the error
 };
 
-enum class ImageFormat : std::uint8_t { png, jpeg, webp, bmp, tiff };
+enum class ImageFormat : std::uint8_t { png, jpeg, webp, bmp, tiff, ktx2 };
 
 struct ImageHeader {
     ImageFormat format = ImageFormat::png;
@@ -51,8 +51,8 @@ public:
     virtual void add_indexed_row(std::span<const std::uint8_t> indices, const Palette& palette);
 };
 
-/// decode_image without memory for the picture where the format allows: PNG that is not interlaced, and JPEG. After an error, rows may have
-/// been added.
+/// decode_image without memory for the picture where the format allows: PNG that is not interlaced, JPEG and KTX2. After an error, rows may
+/// have been added.
 Result<void> decode_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink);
 
 }  // namespace halflit::io

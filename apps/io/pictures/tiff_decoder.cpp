@@ -132,15 +132,6 @@ bool unpack_lzw(std::span<const std::byte> from, std::span<std::uint8_t> to) {
     return true;
 }
 
-bool inflate(std::span<const std::byte> from, std::span<std::uint8_t> to) {
-    struct Free {
-        void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
-    };
-    const std::unique_ptr<libdeflate_decompressor, Free> decompressor(libdeflate_alloc_decompressor());
-    if (!decompressor) return false;
-    return libdeflate_zlib_decompress(decompressor.get(), from.data(), from.size(), to.data(), to.size(), nullptr) == LIBDEFLATE_SUCCESS;
-}
-
 struct Layout {
     std::uint32_t bits = 0, samples = 0, photometric = 0, compression = 0, predictor = 0;
     bool has_alpha = false;
@@ -156,7 +147,7 @@ bool unpack(const Layout& layout, std::span<const std::byte> from, std::span<std
         case 32773:
             return unpack_bits(from, to);
         default:
-            return inflate(from, to);
+            return unpack_zlib(from, to);
     }
 }
 
@@ -175,6 +166,15 @@ void add_differences(const Layout& layout, bool big, std::span<std::uint8_t> row
 }
 
 }  // namespace
+
+bool unpack_zlib(std::span<const std::byte> from, std::span<std::uint8_t> to) {
+    struct Free {
+        void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
+    };
+    const std::unique_ptr<libdeflate_decompressor, Free> decompressor(libdeflate_alloc_decompressor());
+    if (!decompressor) return false;
+    return libdeflate_zlib_decompress(decompressor.get(), from.data(), from.size(), to.data(), to.size(), nullptr) == LIBDEFLATE_SUCCESS;
+}
 
 bool is_tiff(std::span<const std::byte> file) {
     return file.size() >= 8 && ((byte_at(file, 0) == 'I' && byte_at(file, 1) == 'I' && byte_at(file, 2) == 42 && byte_at(file, 3) == 0) ||

@@ -73,8 +73,8 @@ struct TextureRows : RowSink {
 };
 
 std::string_view mime_type_of(ImageFormat format) {
-    static constexpr std::string_view kTypes[] = {"image/png", "image/jpeg", "image/webp", "image/bmp", "image/tiff"};
-    static_assert(std::size(kTypes) == static_cast<std::size_t>(ImageFormat::tiff) + 1);
+    static constexpr std::string_view kTypes[] = {"image/png", "image/jpeg", "image/webp", "image/bmp", "image/tiff", "image/ktx2"};
+    static_assert(std::size(kTypes) == static_cast<std::size_t>(ImageFormat::ktx2) + 1);
     return kTypes[static_cast<std::size_t>(format)];
 }
 

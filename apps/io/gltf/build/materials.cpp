@@ -176,7 +176,7 @@ private:
         const file::Texture& texture = document_.file.textures[static_cast<std::size_t>(info.index)];
         if (texture.source < 0) {
             document_.warn(fmt::format("textures[{}]: {}, left out", info.index,
-                                       texture.basisu >= 0 ? "its picture is KTX2 (KHR_texture_basisu), which is not supported"
+                                       texture.basisu >= 0 ? "its picture is KTX2 (KHR_texture_basisu), which needs the library libzstd"
                                                            : "has no source picture that can be read"));
             return use;
         }

@@ -226,7 +226,7 @@ constexpr SchemaRow kRows[] = {
     {"textures/#/source", index, put<&File::textures, &file::Texture::source>, Target::images},
     {"textures/#/sampler", index, put<&File::textures, &file::Texture::sampler>, Target::samplers},
     {"textures/#/extensions/EXT_texture_webp/source", index, put<&File::textures, &file::Texture::webp>, Target::images},
-    mild({"textures/#/extensions/KHR_texture_basisu/source", index, put<&File::textures, &file::Texture::basisu>, Target::images}),
+    {"textures/#/extensions/KHR_texture_basisu/source", index, put<&File::textures, &file::Texture::basisu>, Target::images},
     {"samplers/#", object, add<&File::samplers>, Target::samplers},
     one_of(kMagFilters, "drawn as 9729 (linear)", {"samplers/#/magFilter", code, put_sampler<&file::Sampler::mag_filter>}),
     one_of(kMinFilters, kTrilinear, {"samplers/#/minFilter", code, put_sampler<&file::Sampler::min_filter>}),

@@ -50,12 +50,12 @@ struct Decoder {
     std::string_view extension;
     const char* library;
     bool (*is_there)();
+    bool is_of_pictures = false;  ///< without it, surfaces are drawn plain
 };
 constexpr Decoder kDecoders[] = {
-    {"EXT_meshopt_compression", "meshoptimizer", has_meshopt},
-    {"EXT_texture_webp", "libwebp", has_webp},
-    {"KHR_draco_mesh_compression", "Draco", has_draco},
-    {"KHR_meshopt_compression", "meshoptimizer", has_meshopt},
+    {"EXT_meshopt_compression", "meshoptimizer", has_meshopt}, {"EXT_texture_webp", "libwebp", has_webp, true},
+    {"KHR_draco_mesh_compression", "Draco", has_draco},        {"KHR_meshopt_compression", "meshoptimizer", has_meshopt},
+    {"KHR_texture_basisu", "libzstd", has_ktx2, true},
 };
 
 const Decoder* decoder_of(std::string_view name) {
@@ -94,9 +94,10 @@ constexpr LeftOut kLeftOut[] = {
 }  // namespace
 
 void choose_forms(file::File& file) {
-    if (has_webp())
-        for (file::Texture& texture : file.textures)
-            if (texture.webp >= 0) texture.source = texture.webp;
+    for (file::Texture& texture : file.textures) {
+        if (has_ktx2() && texture.basisu >= 0) texture.source = texture.basisu;
+        if (has_webp() && texture.webp >= 0) texture.source = texture.webp;
+    }
     if (!has_meshopt())
         for (file::BufferView& view : file.buffer_views) view.compressed = -1;
     if (!has_draco())
@@ -128,9 +129,9 @@ void check_versions(const file::File& file, bool strict) {
         if (is_supported(name)) continue;
         std::string hint;
         const Decoder* decoder = decoder_of(name);
-        if (!strict && decoder == nullptr) continue;  // what it adds to the picture is left out, with a warning
+        if (!strict && (decoder == nullptr || decoder->is_of_pictures))
+            continue;  // what it adds to the picture is left out, with a warning
         if (decoder != nullptr) hint = fmt::format(": it needs the library {}, which this build lacks", decoder->library);
-        if (name == "KHR_texture_basisu") hint = " (KTX2 pictures; save the model with PNG, JPEG or WebP)";
         refuse("extensionsRequired", fmt::format("\"{}\" is not supported{}", printable(name, 80), hint));
     }
 }
