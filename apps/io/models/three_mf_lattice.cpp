@@ -1,0 +1,143 @@
+// Lattices of 3MF files as triangles: outlines turned about the axes of struts.
+#include "apps/io/models/model_builder.hpp"
+#include "apps/io/models/three_mf_model.hpp"
+#include "sh/time_limit.hpp"
+#include "sh/trig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace halflit::io::detail {
+
+namespace {
+
+using namespace three_mf;
+
+/// A circle of an outline: its place along the axis and radius, the normal in these directions, and whether it is near the second end.
+struct Ring {
+    double along, radius, normal_along, normal_out;
+    bool is_second = false;
+};
+
+class Sweeper {
+public:
+    Sweeper(Object& object, ModelBuilder& builder, std::size_t solids) : object_(object), builder_(builder) {
+        // Two thousand struts of full roundness take 170 MB; hundreds of thousands are thin in the picture.
+        constexpr std::size_t kFew = 2'000, kMany = 20'000;
+        const int sides = solids <= kFew ? 16 : solids <= kMany ? 8 : 6;
+        quarter_ = sides / 4;
+        for (int i = 0; i < sides; ++i) circle_.push_back(sin_cos(2.0 * kPi * i / sides));
+    }
+
+    /// The circles of half a ball about `centre`, from its pole to its equator (way -1), or from there to the pole (way 1).
+    void add_half_ball(std::vector<Ring>& outline, double centre, double radius, int way) const {
+        for (int i = 0; i <= quarter_; ++i) {
+            const SinCos at = sin_cos(0.5 * kPi * (way < 0 ? i : quarter_ - i) / quarter_);
+            const double sin = at.sin, cos = way * at.cos;
+            outline.push_back({centre + radius * cos, radius * sin, cos, sin, way > 0});
+        }
+    }
+
+    /// Turns an outline about the axis through `origin`. property: of both ends.
+    void turn(Vec3d origin, Vec3d axis, std::span<const Ring> outline, std::uint32_t group, const std::array<std::uint32_t, 2>& property) {
+        const std::size_t sides = circle_.size();
+        const std::uint64_t vertices = outline.size() * sides, triangles = 2 * (outline.size() - 1) * sides;
+        charge_work(kUnitsAVertex * vertices);
+        check_time();
+        builder_.take_entries<Vec3d>(vertices);
+        builder_.take_entries<Vec3f>(vertices);
+        builder_.document().geometry.take(triangles * sizeof(Triangle));
+        builder_.take_triangles(triangles);
+        const double x = std::max(axis.x, -axis.x), y = std::max(axis.y, -axis.y), z = std::max(axis.z, -axis.z);
+        const Vec3d least = x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
+        const Vec3d side = cross(axis, least), u = side * (1.0 / length(side)), v = cross(axis, u);
+        auto first = static_cast<std::uint32_t>(object_.vertices.size());
+        for (const Ring& ring : outline)
+            for (const SinCos& at : circle_) {
+                const Vec3d out = u * at.cos + v * at.sin, normal = axis * ring.normal_along + out * ring.normal_out;
+                object_.vertices.push_back(origin + axis * ring.along + out * ring.radius);
+                object_.normals.push_back({static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)});
+            }
+        for (std::size_t r = 0; r + 1 < outline.size(); ++r, first += static_cast<std::uint32_t>(sides)) {
+            const Ring &a = outline[r], &b = outline[r + 1];
+            if (a.along == b.along && a.radius == b.radius) continue;  // an edge: two normals at a place
+            const std::uint32_t of_a = property[a.is_second ? 1 : 0], of_b = property[b.is_second ? 1 : 0];
+            for (std::uint32_t i = 0; i < sides; ++i) {
+                const std::uint32_t next = i + 1 < sides ? i + 1 : 0, up = static_cast<std::uint32_t>(sides);
+                if (a.radius > 0) object_.triangles.push_back({{first + i, first + next, first + up + i}, {of_a, of_a, of_b}, group});
+                if (b.radius > 0)
+                    object_.triangles.push_back({{first + next, first + up + next, first + up + i}, {of_a, of_b, of_b}, group});
+            }
+        }
+    }
+
+private:
+    static constexpr std::uint64_t kUnitsAVertex = 100;  ///< of charge_work
+
+    Object& object_;
+    ModelBuilder& builder_;
+    int quarter_ = 1;
+    std::vector<SinCos> circle_;
+};
+
+}  // namespace
+
+void sweep_lattice(Object& object, const std::string& where, ModelBuilder& builder) {
+    const Lattice lattice = std::move(object.lattice);
+    object.lattice = {};
+    std::map<std::uint32_t, Lattice::Ball> balls = lattice.balls;
+    const std::size_t vertices = object.vertices.size();
+    const auto is_size = [](double radius) { return radius > 0 && radius < 1e30; };
+    std::size_t bad = 0;
+    std::vector<const Lattice::Beam*> beams;
+    std::vector<Vec3d> axes;
+    for (const Lattice::Beam& beam : lattice.beams) {
+        const auto [a, b] = beam.vertex;
+        const bool is_there = a < vertices && b < vertices && is_size(beam.radius[0]) && is_size(beam.radius[1]);
+        const Vec3d axis = is_there ? object.vertices[b] - object.vertices[a] : Vec3d{};
+        if (!is_there || !(length(axis) < 1e30)) {
+            ++bad;
+            continue;
+        }
+        for (std::size_t end = 0; end < 2; ++end) {
+            const double radius = lattice.ball_radius > 0                      ? lattice.ball_radius
+                                  : beam.cap[end] == Lattice::Cap::sphere ? beam.radius[end]
+                                                                               : 0.0;
+            Lattice::Ball& ball = balls.try_emplace(beam.vertex[end], Lattice::Ball{0.0, beam.group, beam.property[end]}).first->second;
+            if (!lattice.balls.contains(beam.vertex[end])) ball.radius = std::max(ball.radius, radius);
+        }
+        if (!(length(axis) > std::max(lattice.shortest, 0.0))) continue;
+        beams.push_back(&beam);
+        axes.push_back(axis);
+    }
+    Sweeper sweeper(object, builder, beams.size() + balls.size());
+    std::vector<Ring> outline;
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+        const Lattice::Beam& beam = *beams[i];
+        const double size = length(axes[i]), fall = beam.radius[0] - beam.radius[1], slant = __builtin_sqrt(size * size + fall * fall);
+        outline.clear();
+        if (beam.cap[0] == Lattice::Cap::hemisphere) sweeper.add_half_ball(outline, 0.0, beam.radius[0], -1);
+        if (beam.cap[0] == Lattice::Cap::butt) outline.insert(outline.end(), {{0, 0, -1, 0}, {0, beam.radius[0], -1, 0}});
+        outline.push_back({0, beam.radius[0], fall / slant, size / slant});
+        outline.push_back({size, beam.radius[1], fall / slant, size / slant, true});
+        if (beam.cap[1] == Lattice::Cap::butt) outline.insert(outline.end(), {{size, beam.radius[1], 1, 0, true}, {size, 0, 1, 0, true}});
+        if (beam.cap[1] == Lattice::Cap::hemisphere) sweeper.add_half_ball(outline, size, beam.radius[1], 1);
+        sweeper.turn(object.vertices[beam.vertex[0]], axes[i] * (1.0 / size), outline, beam.group, beam.property);
+    }
+    for (const auto& [vertex, ball] : balls) {
+        if (vertex < vertices && is_size(ball.radius)) {
+            outline.clear();
+            sweeper.add_half_ball(outline, 0.0, ball.radius, -1);
+            outline.pop_back();
+            sweeper.add_half_ball(outline, 0.0, ball.radius, 1);
+            sweeper.turn(object.vertices[vertex], {0, 0, 1}, outline, ball.group, {ball.property, ball.property});
+        } else if (ball.radius != 0) {
+            ++bad;
+        }
+    }
+    if (bad > 0) builder.document().warn(fmt::format("{}: {} beams and balls out of range left out", where, bad));
+}
+
+}  // namespace halflit::io::detail
