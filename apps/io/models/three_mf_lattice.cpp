@@ -23,12 +23,17 @@ struct Ring {
 
 class Sweeper {
 public:
-    Sweeper(Object& object, ModelBuilder& builder, std::size_t solids) : object_(object), builder_(builder) {
-        // Two thousand struts of full roundness take 170 MB; hundreds of thousands are thin in the picture.
-        constexpr std::size_t kFew = 2'000, kMany = 20'000;
-        const int sides = solids <= kFew ? 16 : solids <= kMany ? 8 : 6;
-        quarter_ = sides / 4;
-        for (int i = 0; i < sides; ++i) circle_.push_back(sin_cos(2.0 * kPi * i / sides));
+    /// As round as the memory permits for so many beams and balls.
+    Sweeper(Object& object, ModelBuilder& builder, std::size_t beams, std::size_t balls) : object_(object), builder_(builder) {
+        constexpr std::uint64_t kBytesAVertex = 2 * (kTriangleBytes + sizeof(Triangle)) + 160;
+        for (const std::size_t sides : {16, 12, 8, 6, 4, 3}) {
+            quarter_ = std::max<int>(1, static_cast<int>(sides) / 4);
+            const std::uint64_t rings = 2 * beams + (2 * static_cast<std::uint64_t>(quarter_) + 1) * balls;
+            if (sides > 3 && rings * sides * kBytesAVertex > builder.document().geometry.left() / 2) continue;
+            for (std::size_t i = 0; i < sides; ++i)
+                circle_.push_back(sin_cos(2.0 * kPi * static_cast<double>(i) / static_cast<double>(sides)));
+            break;
+        }
     }
 
     /// The circles of half a ball about `centre`, from its pole to its equator (way -1), or from there to the pole (way 1).
@@ -102,9 +107,9 @@ void sweep_lattice(Object& object, const std::string& where, ModelBuilder& build
             continue;
         }
         for (std::size_t end = 0; end < 2; ++end) {
-            const double radius = lattice.ball_radius > 0                      ? lattice.ball_radius
+            const double radius = lattice.ball_radius > 0                 ? lattice.ball_radius
                                   : beam.cap[end] == Lattice::Cap::sphere ? beam.radius[end]
-                                                                               : 0.0;
+                                                                          : 0.0;
             Lattice::Ball& ball = balls.try_emplace(beam.vertex[end], Lattice::Ball{0.0, beam.group, beam.property[end]}).first->second;
             if (!lattice.balls.contains(beam.vertex[end])) ball.radius = std::max(ball.radius, radius);
         }
@@ -112,7 +117,7 @@ void sweep_lattice(Object& object, const std::string& where, ModelBuilder& build
         beams.push_back(&beam);
         axes.push_back(axis);
     }
-    Sweeper sweeper(object, builder, beams.size() + balls.size());
+    Sweeper sweeper(object, builder, beams.size(), balls.size());
     std::vector<Ring> outline;
     for (std::size_t i = 0; i < beams.size(); ++i) {
         const Lattice::Beam& beam = *beams[i];

@@ -34,7 +34,7 @@ double metres_of(std::string_view unit) {
     constexpr std::pair<std::string_view, double> kUnits[] = {{"micron", 1e-6}, {"millimeter", 1e-3}, {"centimeter", 1e-2},
                                                               {"inch", 0.0254}, {"foot", 0.3048},     {"meter", 1.0}};
     for (const auto& [name, metres] : kUnits)
-        if (name == unit) return metres;
+        if (same_word(unit, name)) return metres;
     return 0.0;
 }
 
@@ -45,7 +45,7 @@ public:
     Model take() {
         if (faults_ > 0) {
             const std::string more = faults_ == 1 ? "" : fmt::format(", and {} more faults", faults_ - 1);
-            builder_.document().go_on_without(first_fault_, "the rest is drawn" + more);
+            builder_.document().go_on_without(first_fault_, "read without it" + more);
         }
         return std::move(model_);
     }
@@ -116,7 +116,7 @@ private:
     Vec4f color(const XmlAttributes& attributes, std::string_view name) const {
         const std::string_view text = Words(attributes.get(name)).rest();
         if (const std::optional<Vec4f> color = parse_color(text)) return *color;
-        fault(fmt::format("{}: expected #RRGGBB or #RRGGBBAA, found \"{}\"; drawn in grey", name, printable(text, 40)));
+        fault(fmt::format("{}: expected #RRGGBB or #RRGGBBAA, found \"{}\"", name, printable(text, 40)));
         return kGrey;
     }
 
@@ -280,8 +280,9 @@ private:
     /// The first element: its namespace is 3MF's, whatever it says.
     void begin_text(const XmlName& name) {
         core_ = name.space;
-        if (name.space != kCore)
-            fault(fmt::format("the namespace is \"{}\", expected \"{}\"; read as that", printable(name.space, 120), kCore));
+        if (name.space == kCore) return;
+        const std::string what = fmt::format("{}: the namespace is \"{}\", expected \"{}\"", part_, printable(name.space, 120), kCore);
+        builder_.document().go_on_without({{ErrorCode::bad_input, what}}, "read as that");
     }
     /// Elements of extensions that are not read; once for each.
     void warn_of_others(std::string_view name_space) {
@@ -308,7 +309,7 @@ private:
         if (const double metres = metres_of(Words(unit).rest()); metres > 0)
             model_.metres = metres;
         else
-            fault(fmt::format("unit: \"{}\" is none that 3MF has; millimetres are taken", printable(unit, 40)));
+            fault(fmt::format("unit: \"{}\" is none that 3MF has", printable(unit, 40)));
     }
     void begin_object(const XmlAttributes& attributes) {
         const std::uint32_t id = needed(attributes, "id");

@@ -65,9 +65,14 @@ public:
     double read() {
         Part& root = part(root_name());
         project_ = read_slicer_project(package_, builder_.document());
-        const std::vector<Component> all = root.model.items.empty() ? objects_of(root) : std::vector<Component>();
+        std::erase_if(root.model.items, [&](const Component& item) {
+            const bool is_lost = item.path.empty() && !root.model.objects.contains(item.object);
+            if (is_lost) builder_.document().go_on_without(lost_object(root, item.object), "the item is left out");
+            return is_lost;
+        });
+        if (root.model.items.empty()) root.model.items = objects_of(root);
         std::size_t left_out = 0;
-        for (const Component* item : items_of_plate(root, all.empty() ? root.model.items : all)) {
+        for (const Component* item : items_of_plate(root)) {
             if (!item->is_printable) {
                 ++left_out;
                 continue;
@@ -140,17 +145,18 @@ private:
             if (!object.is_component && !object.is_support) items.push_back({"", id, {}, true});
         builder_.document().geometry.take(items.size() * sizeof(Component));
         if (!items.empty())
-            builder_.document().go_on_without({{ErrorCode::bad_input, root.name + ": the build has no items"}}, "all objects are drawn");
+            builder_.document().go_on_without(
+                {{ErrorCode::bad_input, printable(root.name, 120) + ": the build has no items that are there"}}, "all objects are drawn");
         return items;
     }
 
     // ---- plates --------------------------------------------------------------------------------------------------------
     /// The build's items on the plate that is asked for.
-    std::vector<const Component*> items_of_plate(Part& root, const std::vector<Component>& of_build) {
+    std::vector<const Component*> items_of_plate(Part& root) {
         const int wanted = builder_.options().plate;
         if (wanted < 0) refuse("", fmt::format("plate is {}, expected at least 0", wanted), ErrorCode::usage);
         std::vector<const Component*> items;
-        for (const Component& item : of_build) items.push_back(&item);
+        for (const Component& item : root.model.items) items.push_back(&item);
         if (wanted == 0 || items.empty()) return items;
         const std::vector<int> plate_of = project_.plates.empty() ? plates_of_bodies(root, items) : named_plates(items);
         const int plates = project_.plates.empty() ? *std::max_element(plate_of.begin(), plate_of.end()) : project_.plates.rbegin()->first;
@@ -261,10 +267,13 @@ private:
         return entry->second;
     }
 
+    static LoadFailure lost_object(const Part& part, std::uint32_t id) {
+        return {{ErrorCode::bad_input, fmt::format("{}: there is no object with the id {}", printable(part.name, 120), id)}};
+    }
     /// The object's own meshes are made at its first use.
     Made& make(Part& part, std::uint32_t id, int depth) {
         const auto object = part.model.objects.find(id);
-        if (object == part.model.objects.end()) refuse(printable(part.name, 120), fmt::format("there is no object with the id {}", id));
+        if (object == part.model.objects.end()) throw lost_object(part, id);
         Made& made = part.made[id];
         if (made.is_open) refuse(printable(part.name, 120), fmt::format("the object {} is a component of itself", id));
         if (made.is_made) return made;
