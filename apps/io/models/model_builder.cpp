@@ -244,7 +244,7 @@ void ModelBuilder::add_camera(Camera camera, const Affine& root_from_camera) {
 
 LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     images_->start();
-    const double s = frame.metres;
+    const double s = frame.unit_m > 0 ? frame.unit_m : 1.0;
     Affine& root = local_.front();
     root = {{{s, 0, 0}, {0, s, 0}, {0, 0, s}, {0, 0, 0}}};
     loaded_.nodes.front().parent_from_node = to_node_transform(root);
@@ -279,6 +279,7 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     info.textures = loaded_.scene.textures.size();
     info.images = document_->file.images.size();
     info.scenes = 1;
+    info.unit_m = frame.unit_m;
     std::sort(info.files.begin(), info.files.end());
     info.files.erase(std::unique(info.files.begin(), info.files.end()), info.files.end());
     loaded_.warnings = document_->take_warnings();

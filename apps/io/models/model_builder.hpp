@@ -21,7 +21,7 @@ namespace halflit::io::detail {
 /// Transform of the root node, for formats that say more than glTF or nothing about it.
 struct ModelFrame {
     UpAxis up = UpAxis::y;  ///< by custom
-    double metres = 1.0;    ///< length of the file's unit
+    double unit_m = 0.0;    ///< length of the file's unit in metres, in which the scene is; 0: it has none
 };
 
 /// A mesh that was made of a part of a soup.

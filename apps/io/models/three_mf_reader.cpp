@@ -514,7 +514,7 @@ private:
 LoadedScene read_three_mf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     ModelBuilder builder(bytes, base_dir, options, "3MF");
     const double metres = ThreeMfReader(bytes, builder).read();
-    return builder.finish({.up = UpAxis::z, .metres = metres});
+    return builder.finish({.up = UpAxis::z, .unit_m = metres});
 }
 
 #else

@@ -127,6 +127,7 @@ struct SceneInfo {
                 lights = 0;
     std::size_t scenes = 0, morph_targets = 0;
     /// @}
+    double unit_m = 0.0;                        ///< length of the file's unit in metres; 0: the format has none
     std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are points or lines
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
