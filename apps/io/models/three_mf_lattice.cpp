@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace halflit::io::detail {
 
@@ -28,20 +29,23 @@ public:
         constexpr std::uint64_t kBytesAVertex = 2 * (kTriangleBytes + sizeof(Triangle)) + 160;
         for (const std::size_t sides : {16, 12, 8, 6, 4, 3}) {
             quarter_ = std::max<int>(1, static_cast<int>(sides) / 4);
-            const std::uint64_t rings = 2 * beams + (2 * static_cast<std::uint64_t>(quarter_) + 1) * balls;
-            if (sides > 3 && rings * sides * kBytesAVertex > builder.document().geometry.left() / 2) continue;
+            const std::uint64_t bytes =
+                (2 * beams + (2 * static_cast<std::uint64_t>(quarter_) + 1) * (beams + balls)) * sides * kBytesAVertex;
+            has_ends_ = bytes <= builder.document().geometry.left() / 2;
+            if (!has_ends_ && sides > 3) continue;
             for (std::size_t i = 0; i < sides; ++i)
                 circle_.push_back(sin_cos(2.0 * kPi * static_cast<double>(i) / static_cast<double>(sides)));
             break;
         }
     }
+    [[nodiscard]] bool has_ends() const { return has_ends_; }
 
     /// The circles of half a ball about `centre`, from its pole to its equator (way -1), or from there to the pole (way 1).
     void add_half_ball(std::vector<Ring>& outline, double centre, double radius, int way) const {
         for (int i = 0; i <= quarter_; ++i) {
-            const SinCos at = sin_cos(0.5 * kPi * (way < 0 ? i : quarter_ - i) / quarter_);
-            const double sin = at.sin, cos = way * at.cos;
-            outline.push_back({centre + radius * cos, radius * sin, cos, sin, way > 0});
+            const int step = way < 0 ? i : quarter_ - i;  // from the pole
+            const auto [sin, cos] = step == quarter_ ? SinCos{1.0, 0.0} : sin_cos(0.5 * kPi * step / quarter_);
+            outline.push_back({centre + way * radius * cos, radius * sin, way * cos, sin, way > 0});
         }
     }
 
@@ -83,64 +87,52 @@ private:
 
     Object& object_;
     ModelBuilder& builder_;
-    int quarter_ = 1;
+    int quarter_ = 1;       ///< circles from a ball's pole to its equator
+    bool has_ends_ = true;  ///< false: of hundreds of thousands, beams are open
     std::vector<SinCos> circle_;
 };
 
 }  // namespace
 
 void sweep_lattice(Object& object, const std::string& where, ModelBuilder& builder) {
-    const Lattice lattice = std::move(object.lattice);
-    object.lattice = {};
-    std::map<std::uint32_t, Lattice::Ball> balls = lattice.balls;
+    Lattice lattice = std::exchange(object.lattice, {});
     const std::size_t vertices = object.vertices.size();
     const auto is_size = [](double radius) { return radius > 0 && radius < 1e30; };
-    std::size_t bad = 0;
-    std::vector<const Lattice::Beam*> beams;
-    std::vector<Vec3d> axes;
-    for (const Lattice::Beam& beam : lattice.beams) {
-        const auto [a, b] = beam.vertex;
-        const bool is_there = a < vertices && b < vertices && is_size(beam.radius[0]) && is_size(beam.radius[1]);
-        const Vec3d axis = is_there ? object.vertices[b] - object.vertices[a] : Vec3d{};
-        if (!is_there || !(length(axis) < 1e30)) {
-            ++bad;
-            continue;
-        }
-        for (std::size_t end = 0; end < 2; ++end) {
-            const double radius = lattice.ball_radius > 0                 ? lattice.ball_radius
-                                  : beam.cap[end] == Lattice::Cap::sphere ? beam.radius[end]
-                                                                          : 0.0;
-            Lattice::Ball& ball = balls.try_emplace(beam.vertex[end], Lattice::Ball{0.0, beam.group, beam.property[end]}).first->second;
-            if (!lattice.balls.contains(beam.vertex[end])) ball.radius = std::max(ball.radius, radius);
-        }
-        if (!(length(axis) > std::max(lattice.shortest, 0.0))) continue;
-        beams.push_back(&beam);
-        axes.push_back(axis);
-    }
-    Sweeper sweeper(object, builder, beams.size(), balls.size());
+    const auto axis_of = [&](const Lattice::Beam& beam) { return object.vertices[beam.vertex[1]] - object.vertices[beam.vertex[0]]; };
+    std::size_t bad = std::erase_if(lattice.beams, [&](const Lattice::Beam& beam) {
+        const bool is_there = beam.vertex[0] < vertices && beam.vertex[1] < vertices && is_size(beam.radius[0]) && is_size(beam.radius[1]);
+        return !is_there || !(length(axis_of(beam)) < 1e30);
+    });
+    if (lattice.ball_radius > 0)
+        for (const Lattice::Beam& beam : lattice.beams)
+            for (std::size_t end = 0; end < 2; ++end)
+                lattice.balls.try_emplace(beam.vertex[end], Lattice::Ball{lattice.ball_radius, beam.group, beam.property[end]});
+    bad += std::erase_if(lattice.balls, [&](const auto& ball) { return ball.first >= vertices || !is_size(ball.second.radius); });
+    std::erase_if(lattice.beams, [&](const Lattice::Beam& beam) { return !(length(axis_of(beam)) > std::max(lattice.shortest, 0.0)); });
+    Sweeper sweeper(object, builder, lattice.beams.size(), lattice.balls.size());
     std::vector<Ring> outline;
-    for (std::size_t i = 0; i < beams.size(); ++i) {
-        const Lattice::Beam& beam = *beams[i];
-        const double size = length(axes[i]), fall = beam.radius[0] - beam.radius[1], slant = __builtin_sqrt(size * size + fall * fall);
+    for (const Lattice::Beam& beam : lattice.beams) {
+        const Vec3d axis = axis_of(beam);
+        const double size = length(axis), fall = beam.radius[0] - beam.radius[1], slant = __builtin_sqrt(size * size + fall * fall);
         outline.clear();
-        if (beam.cap[0] == Lattice::Cap::hemisphere) sweeper.add_half_ball(outline, 0.0, beam.radius[0], -1);
-        if (beam.cap[0] == Lattice::Cap::butt) outline.insert(outline.end(), {{0, 0, -1, 0}, {0, beam.radius[0], -1, 0}});
+        const auto add_end = [&](std::size_t end) {
+            const double at = end == 0 ? 0 : size, radius = beam.radius[end], way = end == 0 ? -1 : 1;
+            if (!sweeper.has_ends()) return;
+            if (beam.cap[end] != Lattice::Cap::butt) return sweeper.add_half_ball(outline, at, radius, end == 0 ? -1 : 1);
+            for (const double r : {end == 0 ? 0 : radius, end == 0 ? radius : 0}) outline.push_back({at, r, way, 0, end == 1});
+        };
+        add_end(0);
         outline.push_back({0, beam.radius[0], fall / slant, size / slant});
         outline.push_back({size, beam.radius[1], fall / slant, size / slant, true});
-        if (beam.cap[1] == Lattice::Cap::butt) outline.insert(outline.end(), {{size, beam.radius[1], 1, 0, true}, {size, 0, 1, 0, true}});
-        if (beam.cap[1] == Lattice::Cap::hemisphere) sweeper.add_half_ball(outline, size, beam.radius[1], 1);
-        sweeper.turn(object.vertices[beam.vertex[0]], axes[i] * (1.0 / size), outline, beam.group, beam.property);
+        add_end(1);
+        sweeper.turn(object.vertices[beam.vertex[0]], axis * (1.0 / size), outline, beam.group, beam.property);
     }
-    for (const auto& [vertex, ball] : balls) {
-        if (vertex < vertices && is_size(ball.radius)) {
-            outline.clear();
-            sweeper.add_half_ball(outline, 0.0, ball.radius, -1);
-            outline.pop_back();
-            sweeper.add_half_ball(outline, 0.0, ball.radius, 1);
-            sweeper.turn(object.vertices[vertex], {0, 0, 1}, outline, ball.group, {ball.property, ball.property});
-        } else if (ball.radius != 0) {
-            ++bad;
-        }
+    for (const auto& [vertex, ball] : lattice.balls) {
+        outline.clear();
+        sweeper.add_half_ball(outline, 0.0, ball.radius, -1);
+        outline.pop_back();
+        sweeper.add_half_ball(outline, 0.0, ball.radius, 1);
+        sweeper.turn(object.vertices[vertex], {0, 0, 1}, outline, ball.group, {ball.property, ball.property});
     }
     if (bad > 0) builder.document().warn(fmt::format("{}: {} beams and balls out of range left out", where, bad));
 }
