@@ -231,4 +231,16 @@ TEST_CASE("models: formats that are not read are named, with a way to one that i
         CHECK(refusal.find("which is not read; ") != std::string::npos);
     }
     CHECK(refusal_of(zip_of({{"model.usdc", to_bytes("PXR-USDC")}}, false), ErrorCode::bad_input, {}).find("is USDZ") != std::string::npos);
+    // By the name where the content says nothing, or less.
+    const auto refusal = [](const char* content, const char* name) {
+        const auto loaded = load_model_bytes(to_bytes(content), name);
+        return loaded ? std::string() : loaded.error().message;
+    };
+    CHECK(refusal("cube(1);", "a.scad").find("is OpenSCAD") != std::string::npos);
+    CHECK(refusal("G1 X0", "a.GCODE").find("is G-code") != std::string::npos);
+    CHECK(refusal("\x1F\x8B", "a.spz").find("is 3D Gaussians as SPZ") != std::string::npos);
+    CHECK(refusal("\x1F\x8B", "a").find("is a gzip file") != std::string::npos);
+    CHECK(refusal("ISO-10303-21;FILE_SCHEMA(('IFC4'))", "a").find("is IFC") != std::string::npos);
+    CHECK(refusal("cube(1);", "a.obj").find("is no model") != std::string::npos);
+    CHECK(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.dxf").empty());
 }
