@@ -55,6 +55,8 @@ struct ForeignFormat {
     std::string_view holds = {};  ///< stands in the first kilobyte too
     std::size_t offset = 0;
     bool (*is_it)(std::span<const std::byte> bytes) = nullptr;  ///< what else holds of its files; null: nothing
+    /// Draws a picture that its files may hold; null: they hold none.
+    std::optional<LoadedScene> (*picture)(const ModelFile&, const LoadOptions&) = nullptr;
 };
 
 /// The format of a file that begins as one of a known format that is not read; null: none. Of several, that of the name's extension.

@@ -12,7 +12,6 @@
 #include "apps/io/models/three_mf_model.hpp"
 #include "apps/io/models/three_mf_package.hpp"
 #include "apps/io/models/xml_reader.hpp"
-#include "apps/io/pictures/image_reader.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
@@ -209,44 +208,12 @@ private:
         return bounds_work_ > kMostBoundsWork ? one : plates_by_place(bodies);
     }
 
-    /// A file of machine code alone holds a picture of the plate: it becomes a card before an orthographic camera. False: it has none.
+    /// A file of machine code alone holds a picture of the plate. False: it has none.
     bool place_picture() {
         const std::string plate = fmt::format("Metadata/plate_{}.png", std::max(1, builder_.options().plate));
         for (const std::string& name : {plate, picture_, std::string("Metadata/thumbnail.png")}) {
             auto picture = name.empty() ? std::nullopt : package_.read(name);
-            if (!picture) continue;
-            const LoadLimits& limits = builder_.options().limits;
-            const auto header = read_image_header(*picture, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans});
-            if (!header) continue;
-            Material card;
-            card.unlit = true;
-            card.double_sided = true;
-            card.alpha_mode = AlphaMode::blend;
-            card.metallic = 0.0f;
-            card.textures[TextureSlot::base_color].texture = builder_.texture(*std::move(picture), printable(name, 120), ColorSpace::srgb);
-            card.textures[TextureSlot::base_color].sampler.wrap_u = TextureWrap::clamp;
-            card.textures[TextureSlot::base_color].sampler.wrap_v = TextureWrap::clamp;
-            const double aspect = static_cast<double>(header->width) / static_cast<double>(header->height);
-            Mesh mesh;
-            mesh.name = name;
-            mesh.material = builder_.add_material(card);
-            const auto w = static_cast<float>(aspect);
-            mesh.positions = {{-w, 0, -1}, {w, 0, -1}, {w, 0, 1}, {-w, 0, 1}};  // z is up
-            mesh.normals.assign(4, {0, -1, 0});
-            mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-            mesh.indices = {0, 1, 2, 0, 2, 3};
-            const int index = builder_.add_mesh(std::move(mesh), {});
-            builder_.place(std::span(&index, 1), name);
-            Camera camera;
-            camera.name = name;
-            camera.orthographic = true;
-            camera.half_height = 1.0f;
-            camera.half_width = w;
-            camera.near_z = 0.1f;
-            camera.far_z = 10.0f;
-            builder_.add_camera(camera, {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, -2, 0}}});
-            builder_.document().warn(fmt::format("the file has no mesh; its picture \"{}\" is drawn", printable(name, 120)));
-            return true;
+            if (picture && builder_.place_card(*std::move(picture), name)) return true;
         }
         return false;
     }
