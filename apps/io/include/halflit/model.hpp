@@ -119,7 +119,7 @@ class Motion;
 
 /// Contents of the file, drawn or not.
 struct SceneInfo {
-    std::string format;              ///< model_format_name()
+    std::string format;              ///< model_format_name(), or "G-code" for its picture
     std::string version, generator;  ///< asset.version and asset.generator
     /// @{
     /// Number in the file.
