@@ -274,8 +274,10 @@ TEST_CASE("3MF: beams are capsules of their radii, closed and of the right size"
         const std::string text =
             R"(<?xml version="1.0"?><model unit="meter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )"
             R"(xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" )"
-            R"(xmlns:bb="http://schemas.microsoft.com/3dmanufacturing/beamlattice/balls/2020/07"><resources><object id="1"><mesh><vertices>)"
-            R"(<vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/><vertex x="0" y="20" z="0"/></vertices><b:beamlattice minlength="0.1" )" +
+            R"(xmlns:bb="http://schemas.microsoft.com/3dmanufacturing/beamlattice/balls/2020/07"><resources>)"
+            R"(<object id="1"><mesh><vertices>)"
+            R"(<vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/><vertex x="0" y="20" z="0"/></vertices>)"
+            R"(<b:beamlattice minlength="0.1" )" +
             members + "><b:beams>" + beam + "</b:beams>" + more +
             R"(</b:beamlattice></mesh></object></resources><build><item objectid="1"/></build></model>)";
         const LoadedScene loaded = load_any_ok(three_mf(text));

@@ -243,7 +243,7 @@ TEST_CASE("models: formats that are not read are named, with a way to one that i
     CHECK(refusal_of(zip_of({{"model.usdc", to_bytes("PXR-USDC")}}, false), ErrorCode::bad_input, {}).find("is USDZ") != std::string::npos);
     // By the name where the content says nothing, or less.
     const auto refusal = [](const char* content, const char* name) {
-        const auto loaded = load_model_bytes(to_bytes(content), name);
+        const auto loaded = load_model_bytes(to_bytes(content), name, "", {});
         return loaded ? std::string() : loaded.error().message;
     };
     CHECK(refusal("cube(1);", "a.scad").find("is OpenSCAD") != std::string::npos);
