@@ -216,6 +216,7 @@ TEST_CASE("3MF: a fault beside the triangles leaves them, with one warning, and 
         {with("ring", "a\x01\x1f"), "2 characters"},
         {with("<build>", "<metadata>1 < 2</metadata><build>"), "1 characters"},
         {with("<model", "<!DOCTYPE model><model"), "document type declaration"},
+        {with("<build>", "<!-- a -- b ---><build>"), "2 characters"},
         {text + "<junk", "junk after document element"},
         {with(item, item + "<item objectid=\"14\"/>"), "no object with the id 14; the item is left out"},
         {with(item, item + "<item objectid=\"1\" transform=\"1 0\"/>"), "expected 12 numbers"},
@@ -241,6 +242,9 @@ TEST_CASE("3MF: a fault beside the triangles leaves them, with one warning, and 
                             [&, found = part](const std::string& warning) { return warning.find(found) != std::string::npos; }) >= 1);
         CHECK_FALSE(load_any(three_mf(model)));
     }
+    const char* const sound = "<metadata><![CDATA[a & <b]]></metadata><!-- & < --><?p & < ?><build>";
+    CHECK(load_any_ok(three_mf(with("<build>", sound))).warnings.empty());
+    CHECK(load_any_ok(three_mf("\xEF\xBB\xBF \n" + replaced(text, "version=\"1.0\"", "encoding=\"utf-16\" a"))).warnings.empty());
     // A vertex without a number is a place of its own: those behind it keep theirs.
     const auto loaded = load_any(three_mf(replaced(text, "<vertex x=\"", "<vertex x=\"?")), tolerant);
     REQUIRE(loaded);

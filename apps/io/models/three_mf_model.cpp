@@ -249,6 +249,8 @@ private:
                 const char* text = attributes.find_prefixed(local);
                 return std::string_view(text == nullptr ? "" : text);
             };
+            for (const char* mesh : {"clippingmesh", "representationmesh"})
+                if (const auto id = whole(attributes, mesh)) lattice.meshes.push_back(*id);
             ball_radius_ = parse_real<double>(prefixed("ballradius")).value_or(0.0);
             if (prefixed("ballmode") == "all") lattice.ball_radius = ball_radius_;
             if (const std::string_view mode = attributes.get("clippingmode"); !mode.empty() && mode != "none")

@@ -62,6 +62,7 @@ struct Lattice {
     };
     std::vector<Beam> beams;
     std::map<std::uint32_t, Ball> balls;  ///< by vertex
+    std::vector<std::uint32_t> meshes;    ///< objects that cut it, or stand for it in other programs
     double shortest = 0.0;                ///< of beams that are drawn
     double ball_radius = 0.0;             ///< above 0: of balls at the ends of all beams
 };

@@ -136,10 +136,14 @@ private:
     /// Where a build has no items: the objects that are components of no other.
     std::vector<Component> objects_of(Part& root) {
         std::vector<Component> items;
-        for (const auto& [id, object] : root.model.objects)
+        const auto mark = [&](std::uint32_t id) {
+            if (const auto of = root.model.objects.find(id); of != root.model.objects.end()) of->second.is_component = true;
+        };
+        for (const auto& [id, object] : root.model.objects) {
             for (const Component& component : object.components)
-                if (const auto of = root.model.objects.find(component.object); component.path.empty() && of != root.model.objects.end())
-                    of->second.is_component = true;
+                if (component.path.empty() || component.path == root.name) mark(component.object);
+            for (const std::uint32_t mesh : object.lattice.meshes) mark(mesh);
+        }
         for (const auto& [id, object] : root.model.objects)
             if (!object.is_component && !object.is_support) items.push_back({"", id, {}, true});
         builder_.document().geometry.take(items.size() * sizeof(Component));

@@ -47,16 +47,18 @@ bool is_reference(std::string_view text) {
            (code >= 0x20 || code == '\t' || code == '\n' || code == '\r') && (code < 0xD800 || code > 0xDFFF) && (code | 1u) != 0xFFFF;
 }
 
-/// Puts '?' and the like in place of what ends a parser: bytes that are not UTF-8, control characters, and '&' and '<' that begin nothing.
-/// Returns how many it replaced.
+/// Puts '?' and the like in place of what ends a parser: bytes that are not UTF-8, control characters, '&' and '<' that begin nothing, and
+/// "--" in comments. Returns how many it replaced.
 std::size_t mend(std::span<std::byte> bytes, bool is_utf8) {
+    constexpr std::pair<std::string_view, std::string_view> kFree[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::size_t mended = 0;
+    std::size_t mended = 0, free_to = 0, comment = text.size();  // up to free_to, '&' and '<' are text; comment: where one begins
     const auto replace = [&](std::size_t at, char by) { bytes[at] = static_cast<std::byte>(by), ++mended; };
     TimeCheck check;
     for (std::size_t at = 0; at < text.size(); ++at) {
         check();
         const auto c = static_cast<unsigned char>(text[at]);
+        const char next = at + 1 < text.size() ? text[at + 1] : ' ';
         if (c >= 0x80 && is_utf8) {
             const int length = utf8_sequence(text, at);
             if (length == 0)
@@ -65,11 +67,18 @@ std::size_t mend(std::span<std::byte> bytes, bool is_utf8) {
                 at += static_cast<std::size_t>(length) - 1;
         } else if (c < 0x20 && c != '\t' && c != '\n' && c != '\r') {
             replace(at, ' ');
+        } else if (at < free_to) {
+            if (c == '-' && next == '-' && at >= comment) replace(at, '+');
         } else if (c == '&' && !is_reference(text.substr(at + 1, 12))) {
             replace(at, '+');
-        } else if (c == '<') {
-            const char next = at + 1 < text.size() ? text[at + 1] : ' ';
-            if ((next >= '\0' && next < 'A' && next != '/' && next != '!' && next != '?' && next != ':')) replace(at, '(');
+        } else if (c == '<' && (next == '!' || next == '?')) {
+            for (const auto& [begin, end] : kFree) {
+                if (!text.substr(at).starts_with(begin)) continue;
+                free_to = std::min(text.find(end, at + begin.size()), text.size());
+                comment = begin == "<!--" ? at + begin.size() : text.size();
+            }
+        } else if (c == '<' && next >= '\0' && next < 'A' && next != '/' && next != ':') {
+            replace(at, '(');
         }
     }
     return mended;
@@ -175,8 +184,13 @@ void XMLCALL doctype(void* user, const XML_Char*, const XML_Char*, const XML_Cha
 }  // namespace
 
 void read_xml(std::span<std::byte> text, const std::string& where, Document& document, XmlSink& sink) {
-    while (!text.empty() && (is_blank(static_cast<char>(text[0])) || is_line_end(static_cast<char>(text[0])))) text = text.subspan(1);
-    const char* const encoding = encoding_of({reinterpret_cast<const char*>(text.data()), text.size()});
+    const auto chars = [&] { return std::string_view(reinterpret_cast<const char*>(text.data()), text.size()); };
+    text = text.subspan(text.size() - as_text(text).size());
+    while (!text.empty() && (is_blank(chars()[0]) || is_line_end(chars()[0]))) text = text.subspan(1);
+    const char* const encoding = encoding_of(chars());
+    // The declaration is not needed then, nor may it be wrong.
+    const std::size_t declared = encoding != nullptr && chars().starts_with("<?xml ") ? chars().find("?>") : std::string_view::npos;
+    if (declared != std::string_view::npos) text = text.subspan(declared + 2);
     const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreate(encoding), &XML_ParserFree);
     if (!parser) refuse(where, "out of memory", ErrorCode::limit);
     Reading reading{parser.get(), sink, where, document, nullptr, 0, 0, false, {}, {}};
