@@ -13,7 +13,7 @@ set(HALFLIT_MODEL_SOURCES
           gltf/build/vertex_values.cpp gltf/build/world.cpp gltf/file/accessor.cpp
           gltf/loader.cpp gltf/pose.cpp
     GROUP models/crease_normals.cpp models/model_builder.cpp models/model_colors.cpp models/formats.cpp
-          models/model_loader.cpp models/ply_header.cpp
+          models/gcode_picture.cpp models/model_loader.cpp models/ply_header.cpp
           models/polygon.cpp models/soup.cpp models/stl_reader.cpp models/text_scanner.cpp
     GROUP models/mtl.cpp models/mtl_pictures.cpp models/obj_reader.cpp models/obj_strokes.cpp models/off_reader.cpp
           models/ply_reader.cpp)

@@ -1,4 +1,5 @@
 // STL, PLY, OBJ and 3MF: each format's own rules.
+#include "halflit/measures.hpp"
 #include "tests/io/model_maker.hpp"
 #include "tests/io/png_maker.hpp"
 #include "tests/support/skip.hpp"
@@ -189,16 +190,125 @@ TEST_CASE("3MF: an extension that a file requires is known, or the file refused 
         REQUIRE(at != std::string::npos);
         return three_mf(text.insert(at, attributes + " "));
     };
-    const std::string lattice = "xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\"",
+    const std::string slice = "xmlns:s=\"http://schemas.microsoft.com/3dmanufacturing/slice/2015/07\"",
+                      lattice = "xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\"",
                       production = "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"";
     CHECK(load_any(requiring(production + " requiredextensions=\"p\"")));
-    CHECK(load_any(requiring(lattice)));  // there, but not required
-    CHECK(
-        refusal_of(requiring(lattice + " " + production + " requiredextensions=\"p b\"")).find("beamlattice/2017/02\" is not supported") !=
-        std::string::npos);
+    CHECK(load_any(requiring(slice)));  // there, but not required
+    CHECK(load_any(requiring(lattice + " requiredextensions=\"b\"")));
+    CHECK(refusal_of(requiring(slice + " " + production + " requiredextensions=\"p s\"")).find("slice/2015/07\" is not supported") !=
+          std::string::npos);
     CHECK(refusal_of(requiring("requiredextensions=\"x\"")).find("\"x\" is not supported") != std::string::npos);
     const LoadOptions tolerant;
-    CHECK(load_any(requiring(lattice + " requiredextensions=\"b\""), tolerant));
+    CHECK(load_any(requiring(slice + " requiredextensions=\"s\""), tolerant));
+}
+
+TEST_CASE("3MF: a fault beside the triangles leaves them, with one warning, and the strict rules refuse it", "[io][3mf]") {
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
+    const std::string object = "<object id=\"1\" name=\"ring\">" + three_mf_mesh(letter()) + "</object>", item = "<item objectid=\"1\"/>",
+                      text = three_mf_text("millimeter", object, item);
+    const auto with = [&](const std::string& from, const std::string& to) { return replaced(text, from, to); };
+    const std::pair<std::string, const char*> cases[] = {
+        {with("<build>", "<ms:pb a=\"1\"/><build>"), "the prefix \"ms\" is not declared"},
+        {with("ring", "A & B"), "1 characters that XML does not allow"},
+        {with("ring", "&nbsp;&#0;&#xD800;"), "3 characters"},
+        {with("ring", "Geh\xe4use"), "1 characters"},
+        {with("ring", "a\x01\x1f"), "2 characters"},
+        {with("<build>", "<metadata>1 < 2</metadata><build>"), "1 characters"},
+        {with("<model", "<!DOCTYPE model><model"), "document type declaration"},
+        {with("<build>", "<!-- a -- b ---><build>"), "2 characters"},
+        {text + "<junk", "junk after document element"},
+        {with(item, item + "<item objectid=\"14\"/>"), "no object with the id 14; the item is left out"},
+        {with(item, item + "<item objectid=\"1\" transform=\"1 0\"/>"), "expected 12 numbers"},
+        {with(item, ""), "the build has no items that are there; all objects are drawn"},
+        {with("</build></model>", ""), "what stands before it is read"},
+        {with("millimeter", "parsec"), "unit: \"parsec\" is none that 3MF has"},
+        {with("core/2015/02", "core/2013/01"), "the namespace is"},
+        {with("xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"", ""), "the namespace is \"\""},
+        {with("</resources>", object + "</resources>"), "two objects with the id 1; the first counts"},
+        {replaced(with("</resources>",
+                       "<object id=\"2\"><components><component objectid=\"1\"/><component objectid=\"9\"/>"
+                       "<component objectid=\"2\"/></components></object></resources>"),
+                  item, "<item objectid=\"2\"/>"),
+         "component is left out"},
+    };
+    const LoadOptions tolerant;
+    for (const auto& [model, part] : cases) {
+        INFO(part);
+        const auto loaded = load_any(three_mf(model), tolerant);
+        REQUIRE(loaded);
+        CHECK(loaded->info.triangles_drawn >= letter().triangles.size());
+        CHECK(std::count_if(loaded->warnings.begin(), loaded->warnings.end(),
+                            [&, found = part](const std::string& warning) { return warning.find(found) != std::string::npos; }) >= 1);
+        CHECK_FALSE(load_any(three_mf(model)));
+    }
+    const char* const sound = "<metadata><![CDATA[a & <b]]></metadata><!-- & < --><?p & < ?><build>";
+    CHECK(load_any_ok(three_mf(with("<build>", sound))).warnings.empty());
+    CHECK(load_any_ok(three_mf("\xEF\xBB\xBF \n" + replaced(text, "version=\"1.0\"", "encoding=\"utf-16\" a"))).warnings.empty());
+    // A vertex without a number is a place of its own: those behind it keep theirs.
+    const auto loaded = load_any(three_mf(replaced(text, "<vertex x=\"", "<vertex x=\"?")), tolerant);
+    REQUIRE(loaded);
+    const auto& triangles = letter().triangles;
+    const auto is_off = [](const auto& t) { return t[0] == 0 || t[1] == 0 || t[2] == 0; };
+    CHECK(loaded->info.triangles_drawn ==
+          triangles.size() - static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(), is_off)));
+    // Names of parts as packers write them.
+    const Bytes model = to_bytes(text);
+    const auto relations = [](const std::string& target) {
+        return to_bytes("<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship Target=\"" +
+                        target + "\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>");
+    };
+    const std::vector<std::pair<std::string, Bytes>> packages[] = {
+        {{"3D\\3dmodel.model", model}},
+        {{"/3d/3DModel.Model", model}},
+        {{"other/part.model", model}},
+        {{"_rels/.rels", relations("\\3D\\a b.model")}, {"3D/a b.model", model}},
+        {{"_rels/.rels", relations("./3D/a%20b.model")}, {"3D/a b.model", model}},
+        {{"_rels/.rels", relations("gone.model")}, {"3D/3dmodel.model", model}},
+        {{"_rels/.rels", to_bytes("<Rel")}, {"3D/3dmodel.model", model}},
+    };
+    for (const auto& files : packages) CHECK(load_any(zip_of(files, true), tolerant));
+    CHECK(refusal_of(zip_of({{"a/ring.stl", {}}, {"b.OBJ", {}}}, true)).find("is a ZIP file that holds a/ring.stl, b.OBJ; unpack it") !=
+          std::string::npos);
+}
+
+TEST_CASE("3MF: beams are capsules of their radii, closed and of the right size", "[io][3mf]") {
+    if (!has_three_mf()) HALFLIT_SKIP("built without expat");
+    const auto measured = [](const std::string& members, const std::string& beam, const std::string& more = "") {
+        const std::string text =
+            R"(<?xml version="1.0"?><model unit="meter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )"
+            R"(xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" )"
+            R"(xmlns:bb="http://schemas.microsoft.com/3dmanufacturing/beamlattice/balls/2020/07"><resources>)"
+            R"(<object id="1"><mesh><vertices>)"
+            R"(<vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/><vertex x="0" y="20" z="0"/></vertices>)"
+            R"(<b:beamlattice minlength="0.1" )" +
+            members + "><b:beams>" + beam + "</b:beams>" + more +
+            R"(</b:beamlattice></mesh></object></resources><build><item objectid="1"/></build></model>)";
+        const LoadedScene loaded = load_any_ok(three_mf(text));
+        const auto m = measure_geometry(loaded.scene);
+        REQUIRE(m);
+        CHECK(m->watertight);
+        return *m;
+    };
+    constexpr double kPi = 3.14159265358979;
+    // Sixteen sides have 2.6 % less area across than the circle; a ball of them loses twice that.
+    const std::string beam = R"(<b:beam v1="0" v2="1"/>)";
+    const Measures flat = measured(R"(radius="2" cap="butt")", beam);
+    CHECK(flat.volume == Approx(kPi * 4 * 10).epsilon(0.03));
+    CHECK(flat.size().x == Approx(10));
+    const Measures round = measured(R"(radius="2")", beam);
+    CHECK(round.volume == Approx(kPi * 4 * 10 + kPi * 4.0 / 3.0 * 8).epsilon(0.05));
+    CHECK(round.size().x == Approx(14));
+    CHECK(measured(R"(radius="1" cap="hemisphere")", beam).size().x == Approx(12));
+    const Measures cone = measured(R"(radius="9")", R"(<b:beam v1="0" v2="1" r1="3" r2="1" cap1="butt" cap2="sphere"/>)");
+    CHECK(cone.volume == Approx(kPi * 10 / 3 * (9 + 3 + 1) + kPi * 2 / 3).epsilon(0.03));
+    CHECK(cone.size().x == Approx(11));
+    // Balls, and beams shorter than the least length.
+    const Measures ball = measured(R"(radius="1" bb:ballmode="mixed" bb:ballradius="3")", R"(<b:beam v1="0" v2="0"/>)",
+                                   R"(<bb:balls><bb:ball vindex="2"/></bb:balls>)");
+    CHECK(ball.size().y == Approx(6));
+    CHECK(ball.volume == Approx(kPi * 4.0 / 3.0 * 27).epsilon(0.08));
+    CHECK(measured(R"(radius="1" bb:ballmode="all" bb:ballradius="3")", beam).size().x == Approx(16));
 }
 
 TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
@@ -214,6 +324,7 @@ TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
         load_any_ok(three_mf(three_mf_text("inch", resources, "<item objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 0 0 0\"/>")));
     CHECK(loaded.warnings.empty());
     CHECK(loaded.info.triangles_drawn == 2 * letter().triangles.size());
+    CHECK(loaded.info.unit_m == 0.0254);
     const Bounds bounds = scene_bounds(loaded.scene);
     // 2 (p + (10, 20, 30)) inches of z-up points in [0, 3] x [-1.5, 0] x [0, 4], turned
     CHECK(std::abs(bounds.max.x - 26 * 0.0254f) < 1e-5f);
@@ -246,6 +357,20 @@ TEST_CASE("3MF: bombs end at a limit", "[io]") {
         CHECK(loaded.has_value() == empty);
         if (!loaded) CHECK(loaded.error().code == ErrorCode::limit);
     }
+    // Lists times the elements that use them: mixtures stop at their own end, layers are work.
+    std::string list, mixtures, layers;
+    for (int i = 0; i < 400'000; ++i) list += "0 ", mixtures += "<m:composite values=\"1\"/>", layers += "<m:multi pindices=\"0\"/>";
+    const std::string base = "<basematerials id=\"2\"><base displaycolor=\"#FF0000\"/></basematerials>";
+    const std::string triangle = "<object id=\"1\">" + three_mf_mesh(letter()) + "</object>";
+    CHECK(load_any(three_mf(three_mf_text(
+        "meter",
+        base + "<m:compositematerials id=\"7\" matid=\"2\" matindices=\"" + list + "\">" + mixtures + "</m:compositematerials>" + triangle,
+        "<item objectid=\"1\"/>"))));
+    CHECK(refusal_of(
+              three_mf(three_mf_text("meter", base + "<m:multiproperties id=\"7\" pids=\"" + list + "\">" + layers + "</m:multiproperties>",
+                                     "<item objectid=\"1\"/>")),
+              ErrorCode::limit)
+              .find("max_work") != std::string::npos);
     std::string items;
     for (int i = 0; i < 300'000; ++i) items += "<item objectid=\"1\"/>";
     const std::string one = "<object id=\"1\">" + three_mf_mesh(letter()) + "</object>";

@@ -152,9 +152,9 @@ std::string look_footer(const RenderJob& job, const Json& measures) {
     if (!measures.is_object()) return text;
     const auto& size = measures["size"];
     const double largest = std::max({size[0].get<double>(), size[1].get<double>(), size[2].get<double>()});
-    const double drawn = largest * job.source.placement.scale;
-    const ShownUnit unit = shown_unit(job.source, drawn);
-    const double factor = unit.per_drawn_unit * job.source.placement.scale;
+    const double of_file = file_unit(job.source).per_drawn_unit;
+    const ShownUnit unit = shown_unit(job.source, largest / of_file);
+    const double factor = unit.per_drawn_unit / of_file;
     const auto triangles = measures["triangles"].get<std::uint64_t>();
     text += fmt::format(": {} x {} x {}{}{}, {} {}", number_text(size[0].get<double>() * factor),
                         number_text(size[1].get<double>() * factor), number_text(size[2].get<double>() * factor),

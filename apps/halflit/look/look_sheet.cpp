@@ -160,10 +160,9 @@ bool make_drawing(std::span<const std::string> names) {
 }
 
 ShownUnit shown_unit(const SceneSource& source, double largest) {
-    const double scale = 1.0 / source.placement.scale;
-    const std::string name = unit_name(source);
+    const ShownUnit unit = file_unit(source);
     constexpr double kSmall = 1.0;  // metres
-    return name == "m" && largest * scale < kSmall ? ShownUnit{"mm", 1000.0 * scale} : ShownUnit{name, scale};
+    return unit.name == "m" && largest * unit.per_drawn_unit < kSmall ? ShownUnit{"mm", 1000.0 * unit.per_drawn_unit} : unit;
 }
 
 Image marked_view(const RenderJob& job, const ViewShot& shot, const ViewContent& content) {

@@ -9,12 +9,7 @@
 
 namespace halflit::cli {
 
-/// Unit of length that people read, and how many of it a unit of the drawn world is.
-struct ShownUnit {
-    std::string name;  ///< "mm", "m", or empty: the format has none
-    double per_drawn_unit = 1.0;
-};
-/// Of a model whose largest side has this length in the drawn world.
+/// Unit of length that people read, of a model whose largest side has this length in the drawn world.
 [[nodiscard]] ShownUnit shown_unit(const SceneSource& source, double largest);
 
 /// How views lie beside each other: third angle has the view from above above the front, first angle below it.

@@ -21,6 +21,14 @@ bool is_address(std::string_view name) { return name.starts_with("http://") || n
 
 }  // namespace
 
+ShownUnit file_unit(const SceneSource& source) {
+    constexpr std::pair<double, const char*> kUnits[] = {{1e-6, "um"}, {1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "in"}, {0.3048, "ft"}};
+    const double metres = source.file ? source.file->unit_m : 0.0, per_drawn_unit = 1.0 / source.placement.scale;
+    for (const auto& [size, name] : kUnits)
+        if (metres == size) return {name, per_drawn_unit / size};
+    return {metres > 0 ? "m" : "", per_drawn_unit};
+}
+
 Result<SceneSource> load_scene(const RenderOptions& options) {
     if (options.keeper != nullptr) return options.keeper->load(options);
     const std::string name = options.scene.empty() ? "demo" : options.scene;

@@ -27,6 +27,14 @@ struct SceneSource {
     std::shared_ptr<Parts> parts;             ///< of the scene as it was loaded, and what was added to them; never null
 };
 
+/// Unit of length, and how many of it a unit of the drawn world is.
+struct ShownUnit {
+    std::string name;  ///< "mm", "m", or empty: the format has none
+    double per_drawn_unit = 1.0;
+};
+/// That of a file.
+[[nodiscard]] ShownUnit file_unit(const SceneSource& source);
+
 /// Name of standard input in messages.
 inline constexpr const char* kStandardInputName = "standard input";
 

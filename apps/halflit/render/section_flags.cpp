@@ -86,8 +86,8 @@ Result<void> cut_job(RenderJob& job, const RenderOptions& options) {
 }
 
 double file_area(const RenderJob& job, const SectionCut& cut) {
-    const double scale = job.source.placement.scale;
-    return cut.area / (scale * scale);
+    const double unit = file_unit(job.source).per_drawn_unit;
+    return cut.area * unit * unit;
 }
 
 const std::string& cut_name(const RenderJob& job, const SectionCut& cut) {

@@ -47,21 +47,21 @@ bool is_soon_measured(const Scene& scene) {
 Json in_file_units(const SceneSource& source, const Measures& found) {
     if (found.triangles == found.not_finite_triangles) return nullptr;
     const Placement& placement = source.placement;
-    const double unit = 1.0 / placement.scale;  // a power of two
+    const auto [name, unit] = file_unit(source);
+    const double by_place = unit * placement.scale;  // in units of the placement
     // Quarter turns may exchange the ends of an axis.
-    const Vec3d a = placement.out(found.min), b = placement.out(found.max);
+    const Vec3d a = placement.out(found.min) * by_place, b = placement.out(found.max) * by_place;
     const Vec3d min{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
     const Vec3d max{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
     const Vec3d size = max - min;
     const double largest = std::max({size.x, size.y, size.z});
-    const std::string name = unit_name(source);
     return Json{{"unit", name.empty() ? Json(nullptr) : Json(name)},
                 {"min", point_json(min, largest)},
                 {"max", point_json(max, largest)},
                 {"size", point_json(size, largest)},
                 {"area", rounded(found.area * (unit * unit))},
                 {"volume", found.watertight ? rounded(found.volume * ((unit * unit) * unit)) : Json(nullptr)},
-                {"center", point_json(placement.out(found.center), largest)},
+                {"center", point_json(placement.out(found.center) * by_place, largest)},
                 {"triangles", found.triangles},
                 {"degenerate_triangles", found.degenerate_triangles},
                 {"not_finite_triangles", found.not_finite_triangles},
@@ -92,13 +92,6 @@ Json bodies_json(const SceneSource& source, std::span<const Body> bodies) {
 }
 
 }  // namespace
-
-std::string unit_name(const SceneSource& source) {
-    constexpr ModelFormat kInMetres[] = {ModelFormat::gltf, ModelFormat::glb, ModelFormat::three_mf};
-    for (const ModelFormat format : kInMetres)
-        if (source.file && source.file->format == model_format_name(format)) return "m";
-    return "";
-}
 
 Result<Json> measures_json(const RenderJob& job) {
     if (!is_soon_measured(job.scene())) return Json(nullptr);

@@ -5,9 +5,6 @@
 
 namespace halflit::cli {
 
-/// Unit of length of a file's own coordinates, as Placement has them: "m"; empty: the format has none.
-[[nodiscard]] std::string unit_name(const SceneSource& source);
-
 /// {"unit", "min", "max", "size", "area", "volume", "center", "triangles", .., "body_list"}: the measures of all that is drawn, in the unit
 /// and along the axes of the file, rounded to seven digits, with those of the first 100 bodies. Null where nothing has triangles, and for
 /// scenes that draw more than 2^25 triangles by drawing the same meshes again and again. Fails after the time limit.

@@ -87,7 +87,8 @@ void read_large(std::span<const std::byte> extra, ZipFile::Entry& entry) {
 }
 
 bool is_before(std::string_view a, std::string_view b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) < lower(y); });
+    const auto folded = [](char c) { return c == '\\' ? '/' : lower(c); };
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return folded(x) < folded(y); });
 }
 
 }  // namespace
@@ -106,6 +107,7 @@ ZipFile::ZipFile(std::span<const std::byte> bytes) : bytes_(bytes) {
         if (!has(list, at + kEntryBytes, name + extra + comment)) fail_whole("its directory is damaged");
         Entry& entry = entries_.emplace_back();
         entry.name = {reinterpret_cast<const char*>(list.data()) + at + kEntryBytes, name};
+        if (entry.name.starts_with('/')) entry.name.remove_prefix(1);
         entry.encrypted = (u16_at(list, at + 8) & 1u) != 0;
         entry.method = u16_at(list, at + 10);
         entry.crc = u32_at(list, at + 16);

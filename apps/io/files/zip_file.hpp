@@ -25,7 +25,9 @@ public:
     /// the object.
     explicit ZipFile(std::span<const std::byte> bytes);
 
-    /// The first entry of that name, the case of ASCII letters aside; null: there is none.
+    /// In the order of the directory.
+    [[nodiscard]] std::span<const Entry> entries() const { return entries_; }
+    /// The first entry of that name, the case of ASCII letters and the way that slashes lean aside; null: there is none.
     [[nodiscard]] const Entry* find(std::string_view name) const;
     /// Writes an entry's bytes to `to`, which has as many. Throws LoadFailure for an entry that cannot be unpacked.
     void unpack(const Entry& entry, std::span<std::byte> to) const;
@@ -37,7 +39,7 @@ private:
 
     std::span<const std::byte> bytes_;
     std::vector<Entry> entries_;
-    std::vector<std::uint32_t> by_name_;  ///< indices of entries in the order of their names, the case of ASCII letters aside
+    std::vector<std::uint32_t> by_name_;  ///< indices of entries in the order of find()
 };
 
 }  // namespace halflit::io::detail

@@ -130,52 +130,110 @@ bool begins_with_usd(std::span<const std::byte> bytes) {
 
 constexpr std::string_view kByBlender = "convert it by Blender to GLB",
                            kByCad = "export it from a CAD program (FreeCAD, CadQuery) as STL or 3MF",
-                           kByCloud = "convert it by CloudCompare or PDAL to PLY";
+                           kByItsCad = "export it from its program as STL, 3MF or GLB",
+                           kByCloud = "convert it by CloudCompare or PDAL to PLY",
+                           kBySplat = "convert it by SuperSplat or splat-transform to PLY", kByAssimp = "convert it by assimp to GLB",
+                           kByParaView = "export it from ParaView as GLB or PLY", kByMeshio = "convert it by meshio to STL or PLY",
+                           kUnpack = "unpack it", kNoShape = "it holds no shape", kSliced = "draw the model that it was sliced from";
 constexpr ForeignFormat kForeign[] = {
-    {"FBX", "Kaydara FBX Binary", kByBlender},
-    {"FBX (text)", "; FBX ", kByBlender},
-    {"Blender", "BLENDER", "export it from Blender as GLB"},
-    {"a compressed Blender file", "\x28\xB5\x2F\xFD", "decompress it; export Blender files as GLB"},
-    {"USD", "PXR-USDC", kByBlender},
-    {"USD (text)", "#usda", kByBlender},
-    {"STEP or IFC", "ISO-10303-21", kByCad},
-    {"IGES", "S      1", kByCad, 72},
-    {"DWG", "AC10", kByCad},
-    {"JT", "Version ", kByCad, 0,
-     [](std::span<const std::byte> bytes) { return begin_of(bytes).substr(0, 80).find("DM ") != std::string_view::npos; }},
-    {"OpenCASCADE BREP", "DBRep_DrawableShape", kByCad},
-    {"OpenCASCADE BREP", "CASCADE Topology", kByCad},
-    {"LAS or LAZ", "LASF", kByCloud},
-    {"E57", "ASTM-E57", kByCloud},
-    {"PCD", "# .PCD", kByCloud},
-    {"VTK", "# vtk DataFile", "export it from ParaView as GLB or PLY"},
-    {"VRML", "#VRML", kByBlender},
-    {"Alembic", "Ogawa", kByBlender},
-    {"3DS", "MM", kByBlender, 0, [](std::span<const std::byte> bytes) { return bytes.size() >= 6 && u32_at(bytes, 2) == bytes.size(); }},
-    {"LightWave", "FORM", kByBlender},
-    {"a RAR file", "Rar!", "unpack it"},
-    {"a 7z file", "7z\xBC\xAF", "unpack it"},
-    {"a gzip file", "\x1F\x8B", "unpack it"},
-    {"a PNG picture", "\x89PNG", "it holds no shape"},
-    {"a JPEG picture", "\xFF\xD8\xFF", "it holds no shape"},
-    {"a PDF document", "%PDF", "it holds no shape that is read"},
-    {"COLLADA", "<", kByBlender, 0,
-     [](std::span<const std::byte> bytes) { return begin_of(bytes).find("<COLLADA") != std::string_view::npos; }},
-    {"AMF", "<", "convert it by a slicer to 3MF", 0,
-     [](std::span<const std::byte> bytes) { return begin_of(bytes).find("<amf") != std::string_view::npos; }},
-    {"X3D", "<", kByBlender, 0, [](std::span<const std::byte> bytes) { return begin_of(bytes).find("<X3D") != std::string_view::npos; }},
-    {"USDZ", "PK", kByBlender, 0, begins_with_usd},
+    {"FBX", "fbx", "Kaydara FBX Binary", kByBlender},
+    {"FBX (text)", "", "; FBX ", kByBlender},
+    {"Blender", "blend", "BLENDER", "export it from Blender as GLB"},
+    {"a compressed Blender file", "blend", "\x28\xB5\x2F\xFD", "decompress it; export Blender files as GLB"},
+    {"USD", "usd usdc", "PXR-USDC", kByBlender},
+    {"USD (text)", "usda", "#usda", kByBlender},
+    {"IFC", "ifc", "ISO-10303-21", "convert it by IfcConvert (IfcOpenShell) to GLB", "IFC"},
+    {"STEP", "step stp p21", "ISO-10303-21", kByCad},
+    {"IGES", "iges igs", "S      1", kByCad, "", 72},
+    {"DXF", "dxf", "AutoCAD Binary DXF", kByCad},
+    {"DXF", "dxf", "", kByCad, "SECTION", 0,
+     [](std::span<const std::byte> bytes) {
+         Words words(begin_of(bytes));
+         return words.next() == "0" && words.next() == "SECTION";
+     }},
+    {"DWG", "dwg", "AC10", kByCad},
+    {"JT", "jt", "Version ", kByCad, "DM "},
+    {"OpenCASCADE BREP", "brep brp", "DBRep_DrawableShape", kByCad},
+    {"OpenCASCADE BREP", "brep brp", "CASCADE Topology", kByCad},
+    {"Parasolid", "x_t x_b", "**ABCDEF", kByItsCad},
+    {"ACIS", "sat sab", "", kByItsCad},
+    {"OpenSCAD", "scad csg", "", "export it by OpenSCAD (openscad -o part.stl part.scad)"},
+    {"FreeCAD", "fcstd", "PK", kByItsCad, "Document.xml"},
+    {"Rhino", "3dm", "3D Geometry File Format", kByItsCad},
+    {"SketchUp", "skp", "\xFF\xFE\xFF\x0E", kByItsCad},
+    {"SolidWorks", "sldprt sldasm", "", kByItsCad},
+    {"Inventor", "ipt iam", "", kByItsCad},
+    {"Cinema 4D", "c4d", "", kByItsCad},
+    {"3ds Max", "max", "", kByItsCad},
+    {"Maya", "ma", "//Maya ASCII", kByItsCad},
+    {"Maya", "mb", "", kByItsCad},
+    {"LAS or LAZ", "las laz", "LASF", kByCloud},
+    {"E57", "e57", "ASTM-E57", kByCloud},
+    {"PCD", "pcd", "# .PCD", kByCloud},
+    {"points as text", "xyz pts asc", "", kByCloud},
+    {"3D Gaussians as SPLAT", "splat ksplat", "", kBySplat},
+    {"3D Gaussians as SPZ", "spz", "NGSP", kBySplat},
+    {"3D Gaussians as SOG", "sog", "PK", kBySplat, ".webp"},
+    {"VTK", "vtk", "# vtk DataFile", kByParaView},
+    {"VTK", "vtu vtp vti vts vtr vtm", "<", kByParaView, "<VTKFile"},
+    {"Gmsh", "msh", "$MeshFormat", kByMeshio},
+    {"VRML", "wrl vrml", "#VRML", kByBlender},
+    {"Alembic", "abc", "Ogawa", kByBlender},
+    {"3DS", "3ds", "MM", kByBlender, "", 0,
+     [](std::span<const std::byte> bytes) { return bytes.size() >= 6 && u32_at(bytes, 2) == bytes.size(); }},
+    {"LightWave", "lwo lws", "FORM", kByBlender},
+    {"DirectX", "x", "xof ", kByAssimp},
+    {"AC3D", "ac", "AC3D", kByAssimp},
+    {"Quake MD2", "md2", "IDP2", kByAssimp},
+    {"Quake MD3", "md3", "IDP3", kByAssimp},
+    {"MikuMikuDance", "pmx", "PMX ", kByBlender},
+    {"MagicaVoxel", "vox", "VOX ", "export it from MagicaVoxel as OBJ"},
+    {"3D Tiles", "b3dm i3dm", "b3dm", "take the GLB that it holds, by 3d-tiles-tools"},
+    {"Draco", "drc", "DRACO", "convert it by draco_decoder to OBJ or PLY"},
+    {"binary G-code", "bgcode", "GCDE", kSliced},
+    {"G-code", "gcode gco g", ";", kSliced, "generated by", 0, nullptr, read_gcode_picture},
+    {"a RAR file", "rar", "Rar!", kUnpack},
+    {"a 7z file", "7z", "7z\xBC\xAF", kUnpack},
+    {"a gzip file", "gz tgz", "\x1F\x8B", kUnpack},
+    {"3D Gaussians as SPZ", "spz", "\x1F\x8B", kBySplat},
+    {"a PNG picture", "png", "\x89PNG", kNoShape},
+    {"a JPEG picture", "jpg jpeg", "\xFF\xD8\xFF", kNoShape},
+    {"a PDF document", "pdf", "%PDF", "it holds no shape that is read"},
+    {"COLLADA", "dae", "<", kByBlender, "<COLLADA"},
+    {"AMF", "amf", "<", "convert it by a slicer to 3MF", "<amf"},
+    {"X3D", "x3d", "<", kByBlender, "<X3D"},
+    {"USDZ", "usdz", "PK", kByBlender, "", 0, begins_with_usd},
 };
+
+bool has_extension(std::string_view name, const ForeignFormat& row) {
+    const std::size_t point = name.rfind('.');
+    if (point == std::string_view::npos) return false;
+    Words words(row.extensions);
+    for (std::string_view one = words.next(); !one.empty(); one = words.next())
+        if (same_word(name.substr(point + 1), one)) return true;
+    return false;
+}
 
 }  // namespace
 
-const ForeignFormat* find_foreign_format(std::span<const std::byte> bytes) {
-    if (fits_binary_stl(bytes)) return nullptr;  // whose title is free
-    const std::string_view text = begin_of(bytes);
-    for (const ForeignFormat& row : kForeign)
-        if (text.size() > row.offset && text.substr(row.offset).starts_with(row.begins) && (row.is_it == nullptr || row.is_it(bytes)))
-            return &row;
-    return nullptr;
+const ForeignFormat* find_foreign_format(const ModelFile& file) {
+    if (fits_binary_stl(file.bytes)) return nullptr;  // whose title is free
+    const std::string_view text = begin_of(file.bytes);
+    const ForeignFormat* found = nullptr;
+    for (const ForeignFormat& row : kForeign) {
+        const bool is_like = text.size() > row.offset && text.substr(row.offset).starts_with(row.begins) &&
+                             text.find(row.holds) != std::string_view::npos && (row.is_it == nullptr || row.is_it(file.bytes));
+        if (!is_like || (row.begins.empty() && row.holds.empty())) continue;
+        if (has_extension(file.name, row)) return &row;
+        if (found == nullptr) found = &row;
+    }
+    return found;
+}
+
+const ForeignFormat* find_foreign_name(std::string_view name) {
+    const auto found =
+        std::find_if(std::begin(kForeign), std::end(kForeign), [&](const ForeignFormat& row) { return has_extension(name, row); });
+    return found == std::end(kForeign) ? nullptr : found;
 }
 
 std::span<const FormatRow> formats() { return kFormats; }

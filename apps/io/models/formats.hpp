@@ -48,13 +48,20 @@ struct FormatRow {
 
 /// A format that is known and not read.
 struct ForeignFormat {
-    std::string_view name, begins;  ///< begins: the file's first bytes, or those at `offset`
-    std::string_view advice;        ///< how to come to a format that is read
+    std::string_view name;
+    std::string_view extensions;  ///< of files, without points, by blanks
+    std::string_view begins;      ///< the file's first bytes, or those at `offset`; empty: its files have no mark
+    std::string_view advice;      ///< how to come to a format that is read
+    std::string_view holds = {};  ///< stands in the first kilobyte too
     std::size_t offset = 0;
     bool (*is_it)(std::span<const std::byte> bytes) = nullptr;  ///< what else holds of its files; null: nothing
+    /// Draws a picture that its files may hold; null: they hold none.
+    std::optional<LoadedScene> (*picture)(const ModelFile&, const LoadOptions&) = nullptr;
 };
 
-/// The format of a file that begins as one of a known format that is not read; null: none.
-[[nodiscard]] const ForeignFormat* find_foreign_format(std::span<const std::byte> bytes);
+/// The format of a file that begins as one of a known format that is not read; null: none. Of several, that of the name's extension.
+[[nodiscard]] const ForeignFormat* find_foreign_format(const ModelFile& file);
+/// That of the name's extension alone, for files whose content says nothing.
+[[nodiscard]] const ForeignFormat* find_foreign_name(std::string_view name);
 
 }  // namespace halflit::io::detail

@@ -9,6 +9,7 @@
 #include "apps/io/gltf/build/placed.hpp"
 #include "apps/io/gltf/build/world.hpp"
 #include "apps/io/models/model_text.hpp"
+#include "apps/io/pictures/image_reader.hpp"
 #include "shading/material_properties.hpp"
 #include "shading/model/srgb.hpp"
 
@@ -230,6 +231,40 @@ void ModelBuilder::place(std::span<const int> meshes, const std::string& name, c
     local_.push_back(root_from_node);
 }
 
+bool ModelBuilder::place_card(std::vector<std::byte> picture, const std::string& name) {
+    const LoadLimits& limits = options().limits;
+    const auto header = read_image_header(picture, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans});
+    if (!header) return false;
+    Material card;
+    card.unlit = true;
+    card.double_sided = true;
+    card.alpha_mode = AlphaMode::blend;
+    card.metallic = 0.0f;
+    auto& slot = card.textures[TextureSlot::base_color];
+    slot.texture = texture(std::move(picture), printable(name, 120), ColorSpace::srgb);
+    slot.sampler.wrap_u = slot.sampler.wrap_v = TextureWrap::clamp;
+    const auto w = static_cast<float>(static_cast<double>(header->width) / static_cast<double>(header->height));
+    Mesh mesh;
+    mesh.name = name;
+    mesh.material = add_material(card);
+    mesh.positions = {{-w, 0, -1}, {w, 0, -1}, {w, 0, 1}, {-w, 0, 1}};  // z is up
+    mesh.normals.assign(4, {0, -1, 0});
+    mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    const int index = add_mesh(std::move(mesh), {});
+    place(std::span(&index, 1), name);
+    Camera camera;
+    camera.name = name;
+    camera.orthographic = true;
+    camera.half_height = 1.0f;
+    camera.half_width = w;
+    camera.near_z = 0.1f;
+    camera.far_z = 10.0f;
+    add_camera(camera, {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, -2, 0}}});
+    document_->warn(fmt::format("the file has no mesh; its picture \"{}\" is drawn", printable(name, 120)));
+    return true;
+}
+
 void ModelBuilder::add_camera(Camera camera, const Affine& root_from_camera) {
     document_->geometry.take(sizeof(Node) + sizeof(Affine) + sizeof(Camera) + camera.name.size());
     Node node;
@@ -244,7 +279,7 @@ void ModelBuilder::add_camera(Camera camera, const Affine& root_from_camera) {
 
 LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     images_->start();
-    const double s = frame.metres;
+    const double s = frame.unit_m > 0 ? frame.unit_m : 1.0;
     Affine& root = local_.front();
     root = {{{s, 0, 0}, {0, s, 0}, {0, 0, s}, {0, 0, 0}}};
     loaded_.nodes.front().parent_from_node = to_node_transform(root);
@@ -279,6 +314,7 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     info.textures = loaded_.scene.textures.size();
     info.images = document_->file.images.size();
     info.scenes = 1;
+    info.unit_m = frame.unit_m;
     std::sort(info.files.begin(), info.files.end());
     info.files.erase(std::unique(info.files.begin(), info.files.end()), info.files.end());
     loaded_.warnings = document_->take_warnings();

@@ -21,7 +21,7 @@ namespace halflit::io::detail {
 /// Transform of the root node, for formats that say more than glTF or nothing about it.
 struct ModelFrame {
     UpAxis up = UpAxis::y;  ///< by custom
-    double metres = 1.0;    ///< length of the file's unit
+    double unit_m = 0.0;    ///< length of the file's unit in metres, in which the scene is; 0: it has none
 };
 
 /// A mesh that was made of a part of a soup.
@@ -73,6 +73,8 @@ public:
     void place_points(Soup&& soup, AlphaMode alpha = AlphaMode::opaque);
     /// Places meshes by a node under the root.
     void place(std::span<const int> meshes, const std::string& name, const Affine& root_from_node = {});
+    /// A picture of what the file has no shape of becomes a card before an orthographic camera, with a warning. False: it is no picture.
+    bool place_card(std::vector<std::byte> picture, const std::string& name);
     /// A camera in the file's space; the projection's lengths are the file's too.
     void add_camera(Camera camera, const Affine& root_from_camera);
     /// Everything placed, completed and counted. Ends the builder.

@@ -91,9 +91,12 @@ LoadedScene read_model(const ModelFile& file, const LoadOptions& options) {
         return loaded;
     }
     const FormatRow* const row = find_format(bytes);
-    if (const ForeignFormat* const foreign = find_foreign_format(bytes))
-        refuse("", fmt::format("is {}, which is not read; {}", foreign->name, foreign->advice));
     if (bytes.empty()) refuse("", "the file is empty");
+    const ForeignFormat* foreign = find_foreign_format(file);
+    if (foreign == nullptr && row == nullptr) foreign = find_foreign_name(file.name);
+    if (foreign != nullptr && foreign->picture != nullptr)
+        if (auto loaded = foreign->picture(file, options)) return *std::move(loaded);
+    if (foreign != nullptr) refuse("", fmt::format("is {}, which is not read; {}", foreign->name, foreign->advice));
     if (row == nullptr) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
     return row->read(file, options);
 }

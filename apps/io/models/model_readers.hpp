@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ struct ModelFile {
 [[nodiscard]] LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options);
 [[nodiscard]] LoadedScene read_obj(const ModelFile& file, const LoadOptions& options);
+/// The largest picture in a file of G-code, as a scene; nothing: it has none.
+[[nodiscard]] std::optional<LoadedScene> read_gcode_picture(const ModelFile& file, const LoadOptions& options);
 /// Paths of all files that the model names, whether or not they exist.
 [[nodiscard]] std::vector<std::string> files_of_obj(const ModelFile& file, const LoadOptions& options);
 [[nodiscard]] std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir,

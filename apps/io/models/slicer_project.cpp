@@ -47,7 +47,8 @@ class VolumeReader : public XmlSink {
 public:
     VolumeReader(SlicerProject& project, Document& document) : project_(project), document_(document) {}
 
-    void begin(std::string_view name, const XmlAttributes& attributes, std::size_t) override {
+    void begin(const XmlName& element, const XmlAttributes& attributes, std::size_t) override {
+        const std::string_view name = element.local;
         document_.geometry.take(64);
         if (name == "object") {
             object_ = number(attributes.get("id"));
@@ -232,7 +233,7 @@ SlicerProject read_slicer_project(ThreeMfPackage& package, Document& document) {
     SlicerProject project;
     const auto read = [&](const std::string& name, const auto& take_in) {
         try {
-            if (const auto bytes = package.read(name)) take_in(*bytes);
+            if (auto bytes = package.read(name)) take_in(*bytes);
         } catch (const LoadFailure& failure) {
             document.go_on_without(failure, "what it says is left out");
         } catch (const JsonFault& fault) {
@@ -240,9 +241,9 @@ SlicerProject read_slicer_project(ThreeMfPackage& package, Document& document) {
         }
     };
     for (const char* name : {"Metadata/model_settings.config", "Metadata/Slic3r_PE_model.config"})
-        read(name, [&](const std::vector<std::byte>& bytes) {
+        read(name, [&](std::vector<std::byte>& bytes) {
             VolumeReader reader(project, document);
-            read_xml(bytes, name, reader);
+            read_xml(bytes, name, document, reader);
         });
     read("Metadata/project_settings.config", [&](const std::vector<std::byte>& bytes) {
         FilamentReader reader(project.filaments);

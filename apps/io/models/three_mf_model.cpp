@@ -4,12 +4,14 @@
 #include "apps/io/models/model_builder.hpp"
 #include "apps/io/models/model_text.hpp"
 #include "apps/io/models/xml_reader.hpp"
+#include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <limits>
 #include <map>
 
 namespace halflit::io::detail {
@@ -18,20 +20,21 @@ namespace {
 
 using namespace three_mf;
 
-constexpr std::string_view kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02 ";
-constexpr std::string_view kMaterial = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02 ";
-constexpr std::string_view kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
-/// Named groups of triangles; they say nothing about the picture.
-constexpr std::string_view kTriangleSets = "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07";
-constexpr const char* kPaintBambu = "paint_color";
-constexpr const char* kPaintPrusa = "http://schemas.slic3r.org/3mf/2017/06 mmu_segmentation";
-constexpr std::string_view kProductionPath = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path";
+constexpr std::string_view kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+/// Parts of the names of extensions, of any year. Sets of triangles are named groups; they say nothing about the picture.
+constexpr std::string_view kMaterial = "/3dmanufacturing/material/", kProduction = "/3dmanufacturing/production/",
+                           kTriangleSets = "/3dmanufacturing/trianglesets/", kLattice = "/3dmanufacturing/beamlattice/";
+
+bool is_of(std::string_view space, std::string_view extension) { return space.find(extension) != std::string_view::npos; }
+
+constexpr std::string_view kRead[] = {kMaterial, kProduction, kTriangleSets, kLattice};
+constexpr std::uint64_t kUnitsALayer = 20;  ///< of charge_work
 
 double metres_of(std::string_view unit) {
     constexpr std::pair<std::string_view, double> kUnits[] = {{"micron", 1e-6}, {"millimeter", 1e-3}, {"centimeter", 1e-2},
                                                               {"inch", 0.0254}, {"foot", 0.3048},     {"meter", 1.0}};
     for (const auto& [name, metres] : kUnits)
-        if (name == unit) return metres;
+        if (same_word(unit, name)) return metres;
     return 0.0;
 }
 
@@ -39,13 +42,21 @@ class ModelReader : public XmlSink {
 public:
     ModelReader(std::string where, ModelBuilder& builder) : part_(std::move(where)), builder_(builder) {}
 
-    Model take() { return std::move(model_); }
+    Model take() {
+        if (faults_ > 0) {
+            const std::string more = faults_ == 1 ? "" : fmt::format(", and {} more faults", faults_ - 1);
+            builder_.document().go_on_without(first_fault_, "read without it" + more);
+        }
+        return std::move(model_);
+    }
 
-    void begin(std::string_view name, const XmlAttributes& attributes, std::size_t line) override {
+    void begin(const XmlName& name, const XmlAttributes& attributes, std::size_t line) override {
         line_ = line;
-        if (name.starts_with(kCore)) return begin_core(name.substr(kCore.size()), attributes);
-        if (name.starts_with(kMaterial)) return begin_material(name.substr(kMaterial.size()), attributes);
-        warn_of_others(name.substr(0, name.find(' ')));
+        if (!core_) begin_text(name);
+        if (name.space == *core_) return begin_core(name.local, attributes);
+        if (is_of(name.space, kMaterial)) return begin_material(name.local, attributes);
+        if (is_of(name.space, kLattice)) return begin_lattice(name.local, attributes);
+        warn_of_others(name.space);
     }
     void declare(std::string_view prefix, std::string_view name_space) override {
         builder_.document().geometry.take(prefix.size() + name_space.size() + 128);
@@ -53,13 +64,16 @@ public:
         for (const std::string_view slicer : {"slic3r", "bambulab", "prusa"})
             if (name_space.find(slicer) != std::string_view::npos) model_.is_of_slicer = true;
     }
-    void end(std::string_view name) override {
-        if (name == std::string(kCore) + "object") object_ = nullptr;
+    void end(std::string_view local) override {
+        if (local == "object") object_ = nullptr;
     }
 
 private:
-    [[noreturn]] void fault(const std::string& what, ErrorCode code = ErrorCode::bad_input) const {
-        refuse(fmt::format("{}: line {}", part_, line_), what, code);
+    /// A fault of an element, which gets some value or is left out. By the strict rules, throws LoadFailure.
+    void fault(const std::string& what) const {
+        if (faults_++ > 0) return;
+        first_fault_ = {{ErrorCode::bad_input, fmt::format("{}: line {}: {}", part_, line_, what)}};
+        if (builder_.options().strict) throw first_fault_;
     }
 
     // ---- attributes ----------------------------------------------------------------------------------------------------
@@ -67,20 +81,24 @@ private:
         const char* text = attributes.find(name);
         if (text == nullptr) return std::nullopt;
         const auto value = parse_whole<std::uint32_t>(Words(text).rest());
-        if (!value || *value == kNone) fault(fmt::format("{}: expected a whole number, found \"{}\"", name, printable(text, 40)));
-        return value;
+        if (value && *value != kNone) return value;
+        fault(fmt::format("{}: expected a whole number, found \"{}\"", name, printable(text, 40)));
+        return std::nullopt;
     }
+    /// kNone where it is not there.
     std::uint32_t needed(const XmlAttributes& attributes, std::string_view name) const {
         const auto value = whole(attributes, name);
         if (!value) fault(fmt::format("expected the attribute {}", name));
-        return *value;
+        return value.value_or(kNone);
     }
+    /// Not a number where there is none.
     template <class T>
     T real(const XmlAttributes& attributes, std::string_view name) const {
         const char* text = attributes.find(name);
-        const auto value = parse_real<T>(Words(text == nullptr ? "" : text).rest());  // XML Schema allows white space around it
-        if (!value) fault(fmt::format("{}: expected a number, found \"{}\"", name, printable(text == nullptr ? "" : text, 40)));
-        return *value;
+        const std::string_view word = Words(text == nullptr ? "" : text).rest();  // XML Schema allows white space around it
+        if (const auto value = parse_real<T>(word)) return *value;
+        fault(fmt::format("{}: expected a number, found \"{}\"", name, printable(word, 40)));
+        return static_cast<T>(parse_loosely(word).value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     /// Twelve numbers: the images of x, y and z, and that of the origin.
     Affine transform(const XmlAttributes& attributes) const {
@@ -88,25 +106,18 @@ private:
         if (text == nullptr) return {};
         Words words(text);
         double m[12];
-        for (double& value : m) {
-            const auto number = parse_real<double>(words.next());
-            if (!number) fault(fmt::format("transform: expected 12 numbers, found \"{}\"", printable(text, 120)));
-            value = *number;
-        }
+        for (double& value : m) value = parse_real<double>(words.next()).value_or(std::numeric_limits<double>::quiet_NaN());
         const Affine affine{{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}, {m[9], m[10], m[11]}}};
-        if (!is_finite(affine)) fault("transform: is not finite");
-        return affine;
+        if (is_finite(affine)) return affine;
+        fault(fmt::format("transform: expected 12 numbers, found \"{}\"", printable(text, 120)));
+        return {};
     }
     /// #RRGGBB or #RRGGBBAA, in sRGB.
     Vec4f color(const XmlAttributes& attributes, std::string_view name) const {
         const std::string_view text = Words(attributes.get(name)).rest();
-        if (text.empty() && !builder_.options().strict) {
-            builder_.document().warn(fmt::format("{}: {} is missing; drawn in grey", part_, name));
-            return {linear_color(0.7), linear_color(0.7), linear_color(0.7), 1.0f};
-        }
-        const std::optional<Vec4f> color = parse_color(text);
-        if (!color) fault(fmt::format("{}: expected #RRGGBB or #RRGGBBAA, found \"{}\"", name, printable(text, 40)));
-        return *color;
+        if (const std::optional<Vec4f> color = parse_color(text)) return *color;
+        fault(fmt::format("{}: expected #RRGGBB or #RRGGBBAA, found \"{}\"", name, printable(text, 40)));
+        return kGrey;
     }
 
     // ---- elements ------------------------------------------------------------------------------------------------------
@@ -119,7 +130,8 @@ private:
         if (name == "base") return add_color(color(attributes, "displaycolor"));
         if (name == "component" || name == "item") {
             builder_.document().geometry.take(sizeof(Component));
-            Component component{std::string(attributes.get(kProductionPath)), needed(attributes, "objectid"), transform(attributes),
+            const char* path = attributes.find_prefixed("path");  // of the production extension
+            Component component{path == nullptr ? "" : path, needed(attributes, "objectid"), transform(attributes),
                                 Words(attributes.get("printable")).rest() != "0"};
             if (name == "item")
                 model_.items.push_back(std::move(component));
@@ -144,7 +156,7 @@ private:
             return;
         }
         if (name == "tex2coord") {
-            if (properties_ == nullptr || !properties_->is_texture) fault("a tex2coord is outside of a texture2dgroup");
+            if (properties_ == nullptr || !properties_->is_texture) return fault("a tex2coord is outside of a texture2dgroup");
             builder_.document().geometry.take(2 * sizeof(Vec2f));
             properties_->uvs.push_back({real<float>(attributes, "u"), 1.0f - real<float>(attributes, "v")});
             return;
@@ -173,10 +185,12 @@ private:
     }
     /// An entry of several layers becomes one colour, or an entry of the texture among them.
     void add_layers(const XmlAttributes& attributes) {
-        if (properties_ == nullptr || properties_->layers.empty()) fault("a multi is outside of multiproperties");
+        if (properties_ == nullptr || properties_->layers.empty()) return fault("a multi is outside of multiproperties");
         Words words(attributes.get("pindices"));
         const std::vector<std::uint32_t> indices = list(words);
         Vec4f color{1, 1, 1, 1};
+        charge_work(kUnitsALayer * properties_->layers.size());
+        check_time();
         for (std::size_t i = 0; i < properties_->layers.size(); ++i) {
             const std::uint32_t at = i < indices.size() ? indices[i] : 0;  // those left out are 0
             const auto found = model_.properties.find(properties_->layers[i]);
@@ -205,25 +219,76 @@ private:
     }
     /// A mixture of base materials becomes the mean of their colours.
     void add_mixture(const XmlAttributes& attributes) {
-        if (properties_ == nullptr || properties_->layers.empty()) fault("a composite is outside of compositematerials");
+        if (properties_ == nullptr || properties_->layers.empty()) return fault("a composite is outside of compositematerials");
         const auto base = model_.properties.find(properties_->layers[0]);
         Words words(attributes.get("values"));
         Vec4f sum{0, 0, 0, 0};
         float weights = 0.0f;
         for (const std::uint32_t index : properties_->indices) {
-            const float weight = std::max(0.0f, parse_real<float>(words.next()).value_or(0.0f));
+            const std::string_view word = words.next();
+            if (word.empty()) break;  // the work goes by the text, however long the list of materials is
+            const float weight = std::max(0.0f, parse_real<float>(word).value_or(0.0f));
             if (base == model_.properties.end() || index >= base->second.colors.size()) continue;
             const Vec4f& color = base->second.colors[index];
             sum = {sum.x + weight * color.x, sum.y + weight * color.y, sum.z + weight * color.z, sum.w + weight * color.w};
             weights += weight;
         }
-        const Vec4f grey{linear_color(0.7), linear_color(0.7), linear_color(0.7), 1.0f};
         const bool is_mean = weights > 0.0f && weights < 1e30f;
-        add_color(is_mean ? Vec4f{sum.x / weights, sum.y / weights, sum.z / weights, sum.w / weights} : grey);
+        add_color(is_mean ? Vec4f{sum.x / weights, sum.y / weights, sum.z / weights, sum.w / weights} : kGrey);
+    }
+    void begin_lattice(std::string_view name, const XmlAttributes& attributes) {
+        if (object_ == nullptr) return fault("a lattice is outside of an object");
+        Lattice& lattice = object_->lattice;
+        if (name == "beamlattice") {
+            lattice_ = {{}, {object_property_, object_property_}, {0, 0}, {}, whole(attributes, "pid").value_or(object_group_)};
+            lattice_.property.fill(whole(attributes, "pindex").value_or(object_property_));
+            lattice_.radius.fill(real<double>(attributes, "radius"));
+            lattice_.cap.fill(cap(attributes.get("cap"), Lattice::Cap::sphere));
+            if (attributes.find("minlength") != nullptr) lattice.shortest = real<double>(attributes, "minlength");
+            const auto prefixed = [&](const char* local) {
+                const char* text = attributes.find_prefixed(local);
+                return std::string_view(text == nullptr ? "" : text);
+            };
+            for (const char* mesh : {"clippingmesh", "representationmesh"})
+                if (const auto id = whole(attributes, mesh)) lattice.meshes.push_back(*id);
+            ball_radius_ = parse_real<double>(prefixed("ballradius")).value_or(0.0);
+            if (prefixed("ballmode") == "all") lattice.ball_radius = ball_radius_;
+            if (const std::string_view mode = attributes.get("clippingmode"); !mode.empty() && mode != "none")
+                builder_.document().warn(fmt::format("{}: beams are not cut by their clippingmesh", part_));
+        } else if (name == "beam") {
+            builder_.document().geometry.take(2 * sizeof(Lattice::Beam));
+            Lattice::Beam beam = lattice_;
+            beam.vertex = {needed(attributes, "v1"), needed(attributes, "v2")};
+            if (attributes.find("r1") != nullptr) beam.radius.fill(real<double>(attributes, "r1"));
+            if (attributes.find("r2") != nullptr) beam.radius[1] = real<double>(attributes, "r2");
+            beam.cap = {cap(attributes.get("cap1"), beam.cap[0]), cap(attributes.get("cap2"), beam.cap[1])};
+            beam.group = whole(attributes, "pid").value_or(beam.group);
+            if (const auto p1 = whole(attributes, "p1")) beam.property.fill(*p1);
+            beam.property[1] = whole(attributes, "p2").value_or(beam.property[1]);
+            lattice.beams.push_back(beam);
+        } else if (name == "ball") {
+            builder_.document().geometry.take(2 * sizeof(Lattice::Ball) + 64);
+            const double radius = attributes.find("r") == nullptr ? ball_radius_ : real<double>(attributes, "r");
+            lattice.balls[needed(attributes, "vindex")] = {radius, whole(attributes, "pid").value_or(lattice_.group),
+                                                           whole(attributes, "p").value_or(lattice_.property[0])};
+        }
+    }
+    static Lattice::Cap cap(std::string_view name, Lattice::Cap without) {
+        return name == "sphere"       ? Lattice::Cap::sphere
+               : name == "hemisphere" ? Lattice::Cap::hemisphere
+               : name == "butt"       ? Lattice::Cap::butt
+                                      : without;
+    }
+    /// The first element: its namespace is 3MF's, whatever it says.
+    void begin_text(const XmlName& name) {
+        core_ = name.space;
+        if (name.space == kCore) return;
+        const std::string what = fmt::format("{}: the namespace is \"{}\", expected \"{}\"", part_, printable(name.space, 120), kCore);
+        builder_.document().go_on_without({{ErrorCode::bad_input, what}}, "read as that");
     }
     /// Elements of extensions that are not read; once for each.
     void warn_of_others(std::string_view name_space) {
-        if (name_space == kTriangleSets || name_space == warned_of_) return;
+        if (name_space.empty() || is_of(name_space, kTriangleSets) || name_space == warned_of_) return;
         warned_of_ = name_space;
         builder_.document().warn(fmt::format("{}: elements of {} are not drawn", part_, printable(name_space, 120)));
     }
@@ -233,27 +298,27 @@ private:
         for (std::string_view prefix = words.next(); !prefix.empty(); prefix = words.next()) {
             const auto found = name_space_of_.find(std::string(prefix));
             const std::string_view name = found == name_space_of_.end() ? prefix : std::string_view(found->second);
-            const std::string_view read[] = {kCore.substr(0, kCore.size() - 1), kMaterial.substr(0, kMaterial.size() - 1), kProduction,
-                                             kTriangleSets};
-            if (std::find(std::begin(read), std::end(read), name) != std::end(read)) continue;
+            const auto is_it = [&](std::string_view extension) { return is_of(name, extension); };
+            if (name == kCore || std::any_of(std::begin(kRead), std::end(kRead), is_it)) continue;
             const std::string what = fmt::format("requiredextensions: \"{}\" is not supported", printable(name, 120));
-            if (builder_.options().strict) fault(what);
-            builder_.document().warn(fmt::format("{}: {}", part_, what));
+            builder_.document().go_on_without({{ErrorCode::bad_input, fmt::format("{}: {}", part_, what)}}, "what is known is drawn");
         }
     }
     void begin_model(const XmlAttributes& attributes) {
         check_required(attributes.get("requiredextensions"));
-        if (const char* unit = attributes.find("unit")) {
-            model_.metres = metres_of(unit);
-            if (model_.metres == 0) fault(fmt::format("unit: \"{}\" is none that 3MF has", printable(unit, 40)));
-        }
+        const char* unit = attributes.find("unit");
+        if (unit == nullptr) return;
+        if (const double metres = metres_of(Words(unit).rest()); metres > 0)
+            model_.metres = metres;
+        else
+            fault(fmt::format("unit: \"{}\" is none that 3MF has", printable(unit, 40)));
     }
     void begin_object(const XmlAttributes& attributes) {
         const std::uint32_t id = needed(attributes, "id");
         builder_.document().geometry.take(sizeof(Object) + 64);
         const auto [entry, is_new] = model_.objects.try_emplace(id);
-        if (!is_new) fault(fmt::format("there are two objects with the id {}", id));
-        object_ = &entry->second;
+        if (!is_new) fault(fmt::format("there are two objects with the id {}; the first counts", id));
+        object_ = is_new ? &entry->second : &(spare_ = {});
         object_->name = attributes.get("name");
         const std::string_view type = attributes.get("type");
         object_->is_support = type == "support" || type == "solidsupport";
@@ -267,17 +332,17 @@ private:
         properties_->is_texture = is_texture;
     }
     void add_color(const Vec4f& color) {
-        if (properties_ == nullptr || properties_->is_texture) fault("a colour is outside of a group of colours");
+        if (properties_ == nullptr || properties_->is_texture) return fault("a colour is outside of a group of colours");
         builder_.document().geometry.take(2 * sizeof(Vec4f));
         properties_->colors.push_back(color);
     }
     void add_vertex(const XmlAttributes& attributes) {
-        if (object_ == nullptr) fault("a vertex is outside of an object");
+        if (object_ == nullptr) return fault("a vertex is outside of an object");
         builder_.take_entries<Vec3d>(1);
         object_->vertices.push_back({real<double>(attributes, "x"), real<double>(attributes, "y"), real<double>(attributes, "z")});
     }
     void add_triangle(const XmlAttributes& attributes) {
-        if (object_ == nullptr) fault("a triangle is outside of an object");
+        if (object_ == nullptr) return fault("a triangle is outside of an object");
         builder_.document().geometry.take(sizeof(Triangle));
         builder_.take_triangles(1);
         Triangle triangle;
@@ -286,8 +351,8 @@ private:
         triangle.group = own.value_or(object_group_);
         const std::uint32_t first = p1.value_or(object_property_);
         triangle.property = {first, whole(attributes, "p2").value_or(first), whole(attributes, "p3").value_or(first)};
-        const char* paint = attributes.find(kPaintBambu);
-        if (paint == nullptr) paint = attributes.find(kPaintPrusa);
+        const char* paint = attributes.find("paint_color");                          // Bambu Studio
+        if (paint == nullptr) paint = attributes.find_prefixed("mmu_segmentation");  // PrusaSlicer
         if (paint != nullptr && *paint != '\0') {
             builder_.document().geometry.take(sizeof(object_->paints[0]) + std::string_view(paint).size());
             object_->paints.emplace_back(static_cast<std::uint32_t>(object_->triangles.size()), paint);
@@ -295,9 +360,16 @@ private:
         object_->triangles.push_back(triangle);
     }
 
+    const Vec4f kGrey{linear_color(0.7), linear_color(0.7), linear_color(0.7), 1.0f};
     std::string part_;
     ModelBuilder& builder_;
     Model model_;
+    std::optional<std::string> core_;  ///< namespace of the first element
+    mutable LoadFailure first_fault_;
+    mutable std::size_t faults_ = 0;
+    Object spare_;           ///< takes what is left out
+    Lattice::Beam lattice_;  ///< what its beams have unless they say otherwise
+    double ball_radius_ = 0.0;
     std::map<std::string, std::string> name_space_of_;  ///< of a prefix
     std::string warned_of_;
     std::size_t line_ = 0;
@@ -319,9 +391,9 @@ std::optional<Vec4f> three_mf::parse_color(std::string_view text) {
     return Vec4f{linear_color(channel(24)), linear_color(channel(16)), linear_color(channel(8)), static_cast<float>(channel(0))};
 }
 
-Model read_three_mf_model(std::span<const std::byte> text, const std::string& where, ModelBuilder& builder) {
+Model read_three_mf_model(std::span<std::byte> text, const std::string& where, ModelBuilder& builder) {
     ModelReader reader(where, builder);
-    read_xml(text, where, reader);
+    read_xml(text, where, builder.document(), reader);
     return reader.take();
 }
 

@@ -6,12 +6,12 @@
 
 #if HALFLIT_HAS_3MF
 #include "apps/io/files/text.hpp"
+#include "apps/io/models/formats.hpp"
 #include "apps/io/models/model_text.hpp"
 #include "apps/io/models/slicer_project.hpp"
 #include "apps/io/models/three_mf_model.hpp"
 #include "apps/io/models/three_mf_package.hpp"
 #include "apps/io/models/xml_reader.hpp"
-#include "apps/io/pictures/image_reader.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
@@ -40,15 +40,16 @@ using namespace three_mf;
 constexpr const char* kUsualModel = "3D/3dmodel.model";
 constexpr int kMostDepth = 64, kMostPlateDepth = 4;
 constexpr std::size_t kMostBoundsWork = 100'000'000;  ///< vertices and components that are looked at to find plates
+constexpr std::uint64_t kUnitsAVisit = 1000;          ///< of charge_work, for a component
 constexpr std::uint64_t kMostPacked = 32;             ///< bytes of a mesh's text for each byte in the package, at most
 
 /// Finds the names of the model and of its picture among the package's relations.
 class RelationReader : public XmlSink {
 public:
-    void begin(std::string_view name, const XmlAttributes& attributes, std::size_t) override {
-        if (!name.ends_with(" Relationship")) return;
+    void begin(const XmlName& name, const XmlAttributes& attributes, std::size_t) override {
+        if (name.local != "Relationship") return;
         const std::string_view type = attributes.get("Type");
-        if (type == "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel") target = attributes.get("Target");
+        if (type.ends_with("/3dmodel")) target = attributes.get("Target");
         if (type.ends_with("/metadata/thumbnail")) picture = attributes.get("Target");
     }
     void end(std::string_view) override {}
@@ -63,13 +64,23 @@ public:
     double read() {
         Part& root = part(root_name());
         project_ = read_slicer_project(package_, builder_.document());
+        std::erase_if(root.model.items, [&](const Component& item) {
+            const bool is_lost = item.path.empty() && !root.model.objects.contains(item.object);
+            if (is_lost) builder_.document().go_on_without(lost_object(root, item.object), "the item is left out");
+            return is_lost;
+        });
+        if (root.model.items.empty()) root.model.items = objects_of(root);
         std::size_t left_out = 0;
         for (const Component* item : items_of_plate(root)) {
-            const std::string& path = item->path.empty() ? root.name : item->path;
-            if (item->is_printable)
-                place(path, *item, {}, root.model.metres, 0);
-            else
+            if (!item->is_printable) {
                 ++left_out;
+                continue;
+            }
+            try {
+                place(item->path.empty() ? root.name : item->path, *item, {}, root.model.metres, 0);
+            } catch (const LoadFailure& failure) {
+                builder_.document().go_on_without(failure, "the item is left out");
+            }
         }
         if (left_out > 0) builder_.document().warn(fmt::format("{} items that are not to be printed are left out", left_out));
         if (helpers_ > 0)
@@ -95,13 +106,51 @@ private:
         std::map<std::pair<std::uint32_t, bool>, int> texture_material;
     };
 
+    /// The part that the package's relations name; where they name none, the usual one, or any of its kind.
     std::string root_name() {
-        const auto relations = package_.read("_rels/.rels");
-        if (!relations) return kUsualModel;
         RelationReader reader;
-        read_xml(*relations, "_rels/.rels", reader);
+        try {
+            if (auto relations = package_.read("_rels/.rels")) read_xml(*relations, "_rels/.rels", builder_.document(), reader);
+        } catch (const LoadFailure& failure) {
+            builder_.document().go_on_without(failure, "the model is looked for by its name");
+        }
         picture_ = reader.picture;
-        return reader.target.empty() ? kUsualModel : reader.target;
+        std::vector<std::string> names{reader.target, kUsualModel};
+        for (std::string& name : package_.names_ending(".model", 1)) names.push_back(std::move(name));
+        for (std::string& name : names) {
+            if (name.empty() || !package_.has(name)) continue;
+            if (!reader.target.empty() && name != reader.target)
+                builder_.document().go_on_without(
+                    {{ErrorCode::bad_input, fmt::format("_rels/.rels: \"{}\" is not in the ZIP file", printable(reader.target, 120))}},
+                    fmt::format("\"{}\" is read", printable(name, 120)));
+            return std::move(name);
+        }
+        std::string found;
+        for (const FormatRow& row : formats())
+            for (const std::string& name : package_.names_ending(row.extension, 4))
+                found += (found.empty() ? "" : ", ") + printable(name, 120);
+        if (!found.empty()) refuse("", "is a ZIP file that holds " + found + "; unpack it");
+        refuse("", "is a ZIP file without a model of 3MF in it");
+    }
+
+    /// Where a build has no items: the objects that are components of no other.
+    std::vector<Component> objects_of(Part& root) {
+        std::vector<Component> items;
+        const auto mark = [&](std::uint32_t id) {
+            if (const auto of = root.model.objects.find(id); of != root.model.objects.end()) of->second.is_component = true;
+        };
+        for (const auto& [id, object] : root.model.objects) {
+            for (const Component& component : object.components)
+                if (component.path.empty() || component.path == root.name) mark(component.object);
+            for (const std::uint32_t mesh : object.lattice.meshes) mark(mesh);
+        }
+        for (const auto& [id, object] : root.model.objects)
+            if (!object.is_component && !object.is_support) items.push_back({"", id, {}, true});
+        builder_.document().geometry.take(items.size() * sizeof(Component));
+        if (!items.empty())
+            builder_.document().go_on_without(
+                {{ErrorCode::bad_input, printable(root.name, 120) + ": the build has no items that are there"}}, "all objects are drawn");
+        return items;
     }
 
     // ---- plates --------------------------------------------------------------------------------------------------------
@@ -163,44 +212,12 @@ private:
         return bounds_work_ > kMostBoundsWork ? one : plates_by_place(bodies);
     }
 
-    /// A file of machine code alone holds a picture of the plate: it becomes a card before an orthographic camera. False: it has none.
+    /// A file of machine code alone holds a picture of the plate. False: it has none.
     bool place_picture() {
         const std::string plate = fmt::format("Metadata/plate_{}.png", std::max(1, builder_.options().plate));
         for (const std::string& name : {plate, picture_, std::string("Metadata/thumbnail.png")}) {
             auto picture = name.empty() ? std::nullopt : package_.read(name);
-            if (!picture) continue;
-            const LoadLimits& limits = builder_.options().limits;
-            const auto header = read_image_header(*picture, {limits.max_texture_side, limits.max_texture_pixels, limits.max_jpeg_scans});
-            if (!header) continue;
-            Material card;
-            card.unlit = true;
-            card.double_sided = true;
-            card.alpha_mode = AlphaMode::blend;
-            card.metallic = 0.0f;
-            card.textures[TextureSlot::base_color].texture = builder_.texture(*std::move(picture), printable(name, 120), ColorSpace::srgb);
-            card.textures[TextureSlot::base_color].sampler.wrap_u = TextureWrap::clamp;
-            card.textures[TextureSlot::base_color].sampler.wrap_v = TextureWrap::clamp;
-            const double aspect = static_cast<double>(header->width) / static_cast<double>(header->height);
-            Mesh mesh;
-            mesh.name = name;
-            mesh.material = builder_.add_material(card);
-            const auto w = static_cast<float>(aspect);
-            mesh.positions = {{-w, 0, -1}, {w, 0, -1}, {w, 0, 1}, {-w, 0, 1}};  // z is up
-            mesh.normals.assign(4, {0, -1, 0});
-            mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-            mesh.indices = {0, 1, 2, 0, 2, 3};
-            const int index = builder_.add_mesh(std::move(mesh), {});
-            builder_.place(std::span(&index, 1), name);
-            Camera camera;
-            camera.name = name;
-            camera.orthographic = true;
-            camera.half_height = 1.0f;
-            camera.half_width = w;
-            camera.near_z = 0.1f;
-            camera.far_z = 10.0f;
-            builder_.add_camera(camera, {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, -2, 0}}});
-            builder_.document().warn(fmt::format("the file has no mesh; its picture \"{}\" is drawn", printable(name, 120)));
-            return true;
+            if (picture && builder_.place_card(*std::move(picture), name)) return true;
         }
         return false;
     }
@@ -209,8 +226,8 @@ private:
         const std::string name = given.starts_with('/') ? given.substr(1) : given;
         const auto [entry, is_new] = parts_.try_emplace(name);
         if (!is_new) return entry->second;
-        const auto text = package_.read(name);
-        if (!text) refuse(printable(name, 120), "is not in the ZIP file; is it a 3MF model?");
+        auto text = package_.read(name);
+        if (!text) refuse(printable(name, 120), "is not in the ZIP file");
         // The limit for geometry goes by what was unpacked, as far as the text of a mesh can be packed.
         Document& document = builder_.document();
         unpacked_ += text->size();
@@ -221,10 +238,13 @@ private:
         return entry->second;
     }
 
+    static LoadFailure lost_object(const Part& part, std::uint32_t id) {
+        return {{ErrorCode::bad_input, fmt::format("{}: there is no object with the id {}", printable(part.name, 120), id)}};
+    }
     /// The object's own meshes are made at its first use.
     Made& make(Part& part, std::uint32_t id, int depth) {
         const auto object = part.model.objects.find(id);
-        if (object == part.model.objects.end()) refuse(printable(part.name, 120), fmt::format("there is no object with the id {}", id));
+        if (object == part.model.objects.end()) throw lost_object(part, id);
         Made& made = part.made[id];
         if (made.is_open) refuse(printable(part.name, 120), fmt::format("the object {} is a component of itself", id));
         if (made.is_made) return made;
@@ -239,13 +259,20 @@ private:
             return made;
         }
         apply_project(part, object->second, id);
+        sweep_lattice(object->second, where_of(part, object->second), builder_);
         make_meshes_of(part, object->second, made);
         made.has_something = !made.meshes.empty();
-        for (const Component& component : object->second.components) {
-            Part& where = component.path.empty() ? part : this->part(component.path);
-            const bool has = make(where, component.object, depth + 1).has_something;
-            made.has_something = made.has_something || has;
-        }
+        std::erase_if(object->second.components, [&](const Component& component) {
+            try {
+                Part& where = component.path.empty() ? part : this->part(component.path);
+                const bool has = make(where, component.object, depth + 1).has_something;
+                made.has_something = made.has_something || has;
+                return !has;
+            } catch (const LoadFailure& failure) {
+                builder_.document().go_on_without(failure, "the component is left out");
+                return true;
+            }
+        });
         made.is_open = false;
         made.is_made = true;
         return made;
@@ -267,6 +294,7 @@ private:
             builder_.place(made.meshes, object.name, s == 1.0 ? world : world * units);
         }
         for (const Component& component : object.components) {
+            charge_work(kUnitsAVisit);
             builder_.document().geometry.take(sizeof(Component));  // each visit leads to an instance, but depth costs too
             place(component.path.empty() ? path : component.path, component, world, root_metres, depth + 1);
         }
@@ -367,20 +395,25 @@ private:
         return entry->second = builder_.add_material(material);
     }
 
+    static std::string where_of(const Part& part, const Object& object) {
+        return fmt::format("{}: object \"{}\"", printable(part.name, 120), printable(object.name, 80));
+    }
     void make_meshes_of(Part& part, Object& object, Made& made) {
         if (object.triangles.empty()) return;
         const bool strict = builder_.options().strict;
-        const std::string where = fmt::format("{}: object \"{}\"", printable(part.name, 120), printable(object.name, 80));
+        const std::string where = where_of(part, object);
         Soup soup;
         soup.positions = std::move(object.vertices);
+        soup.normals = std::move(object.normals);
+        const std::size_t without_normal = soup.positions.size() - soup.normals.size();
         std::vector<int> materials;
-        std::map<int, std::uint32_t> part_of;             // of a material
-        std::map<std::uint32_t, std::uint32_t> first_of;  // of a group: where its entries begin in the soup's list
+        std::map<int, std::uint32_t> part_of;                         // of a material
+        std::vector<std::pair<Properties*, std::uint32_t>> in_lists;  // entries of groups that are in the soup's lists
         std::size_t bad = 0;
         std::uint32_t lost = kNone;  // a group that is not there
         for (const Triangle& triangle : object.triangles) {
             const auto found = triangle.group == kNone ? part.model.properties.end() : part.model.properties.find(triangle.group);
-            const Properties* properties = found == part.model.properties.end() ? nullptr : &found->second;
+            Properties* properties = found == part.model.properties.end() ? nullptr : &found->second;
             if (properties == nullptr && triangle.group != kNone && triangle.group != lost)
                 builder_.document().warn(fmt::format("{}: there is no group {} of colours; drawn in grey", where, triangle.group));
             if (properties == nullptr) lost = triangle.group;
@@ -405,18 +438,30 @@ private:
             if (is_new) materials.push_back(material);
             soup.part_of.push_back(entry->second);
             soup.position_of.insert(soup.position_of.end(), triangle.vertex.begin(), triangle.vertex.end());
+            for (const std::uint32_t v : triangle.vertex)
+                if (!soup.normals.empty())
+                    soup.normal_of.push_back(v < without_normal ? kNone : static_cast<std::uint32_t>(v - without_normal));
             if (properties == nullptr) continue;
-            auto [first, is_first] = first_of.try_emplace(triangle.group, 0);
-            if (is_first) {
-                builder_.take_entries<Vec4f>(entries);
-                first->second = static_cast<std::uint32_t>(properties->is_texture ? soup.uvs.size() : soup.colors.size());
-                soup.uvs.insert(soup.uvs.end(), properties->uvs.begin(), properties->uvs.end());
-                soup.colors.insert(soup.colors.end(), properties->colors.begin(), properties->colors.end());
+            if (properties->place.empty()) {
+                builder_.document().geometry.take(entries * sizeof(properties->place[0]));
+                properties->place.assign(entries, kNone);
             }
             auto& list = properties->is_texture ? soup.uv_of : soup.color_of;
             list.resize(soup.position_of.size() - 3, kNone);
-            for (const std::uint32_t i : triangle.property) list.push_back(first->second + i);
+            for (const std::uint32_t i : triangle.property) {
+                std::uint32_t& at = properties->place[i];
+                if (at == kNone) {
+                    in_lists.emplace_back(properties, i);
+                    at = static_cast<std::uint32_t>(properties->is_texture ? soup.uvs.size() : soup.colors.size());
+                    if (properties->is_texture)
+                        soup.uvs.push_back(properties->uvs[i]);
+                    else
+                        soup.colors.push_back(properties->colors[i]);
+                }
+                list.push_back(at);
+            }
         }
+        for (const auto& [properties, entry] : in_lists) properties->place[entry] = kNone;
         object.triangles = {};
         if (bad > 0) builder_.document().warn(fmt::format("{}: {} triangles with indices out of range left out", where, bad));
         const std::vector<std::string> names(materials.size(), object.name);
@@ -440,7 +485,7 @@ private:
 LoadedScene read_three_mf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     ModelBuilder builder(bytes, base_dir, options, "3MF");
     const double metres = ThreeMfReader(bytes, builder).read();
-    return builder.finish({.up = UpAxis::z, .metres = metres});
+    return builder.finish({.up = UpAxis::z, .unit_m = metres});
 }
 
 #else

@@ -1,4 +1,5 @@
-// XML read by expat: elements in their order, with their attributes. No document type declaration is accepted, so there are no entities.
+// XML read by expat: elements in their order, with their attributes. No entities are accepted. What is wrong beside the elements, as a
+// prefix that nothing declares or a byte that is not UTF-8, does not end the text.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -7,7 +8,14 @@
 
 namespace halflit::io::detail {
 
-/// Attributes of an element: "namespace local" or "local" names, and their values.
+struct Document;
+
+/// Name of an element; the namespace is empty where there is none, or the prefix is not declared.
+struct XmlName {
+    std::string_view space, local;
+};
+
+/// Attributes of an element, by their names as they are written.
 class XmlAttributes {
 public:
     explicit XmlAttributes(const char** list) : list_(list) {}
@@ -15,6 +23,14 @@ public:
     [[nodiscard]] const char* find(std::string_view name) const {
         for (const char** at = list_; *at != nullptr; at += 2)
             if (name == *at) return at[1];
+        return nullptr;
+    }
+    /// The same by the name behind any prefix.
+    [[nodiscard]] const char* find_prefixed(std::string_view local) const {
+        for (const char** at = list_; *at != nullptr; at += 2) {
+            const std::string_view name = *at;
+            if (name.ends_with(local) && name.size() > local.size() && name[name.size() - local.size() - 1] == ':') return at[1];
+        }
         return nullptr;
     }
     [[nodiscard]] std::string_view get(std::string_view name) const {
@@ -30,9 +46,9 @@ private:
 class XmlSink {
 public:
     virtual ~XmlSink() = default;
-    /// name: "namespace local". line: where the element begins.
-    virtual void begin(std::string_view name, const XmlAttributes& attributes, std::size_t line) = 0;
-    virtual void end(std::string_view name) = 0;
+    /// line: where the element begins.
+    virtual void begin(const XmlName& name, const XmlAttributes& attributes, std::size_t line) = 0;
+    virtual void end(std::string_view local) = 0;
     /// A prefix of names, before the element that declares it begins.
     virtual void declare(std::string_view prefix, std::string_view name_space) {
         static_cast<void>(prefix);
@@ -40,7 +56,8 @@ public:
     }
 };
 
-/// Reads a text. `where` is for messages. Throws LoadFailure, and what the sink throws.
-void read_xml(std::span<const std::byte> text, const std::string& where, XmlSink& sink);
+/// Reads a text, in which it replaces bytes that XML does not allow. `where` is for messages. Unless strict, a fault is warned of, and what
+/// stands before it is read; text without any element is refused. Throws LoadFailure, and what the sink throws.
+void read_xml(std::span<std::byte> text, const std::string& where, Document& document, XmlSink& sink);
 
 }  // namespace halflit::io::detail

@@ -86,6 +86,7 @@ void fill_info(Document& document, std::span<const std::byte> bytes) {
     SceneInfo& info = document.info;
     const file::File& file = document.file;
     info.format = is_glb(bytes) ? "GLB" : "glTF";
+    info.unit_m = 1.0;
     info.version = file.version;
     info.generator = printable(file.generator, 100);
     info.scenes = file.scenes.size();

@@ -119,7 +119,7 @@ class Motion;
 
 /// Contents of the file, drawn or not.
 struct SceneInfo {
-    std::string format;              ///< model_format_name()
+    std::string format;              ///< model_format_name(), or "G-code" for its picture
     std::string version, generator;  ///< asset.version and asset.generator
     /// @{
     /// Number in the file.
@@ -127,6 +127,7 @@ struct SceneInfo {
                 lights = 0;
     std::size_t scenes = 0, morph_targets = 0;
     /// @}
+    double unit_m = 0.0;                        ///< length of the file's unit in metres; 0: the format has none
     std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are points or lines
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
