@@ -80,13 +80,14 @@ Scene box_scene(Vec3d size) {
 TEST_CASE("sheet: each view has the lengths of the box's sides that it shows, in the unit that people read", "[look]") {
     struct Case {
         Vec3d size;
-        bool metres;
+        double unit_m;  // of the file
         const char *x, *y, *z;
     };
-    for (const Case& one : {Case{{37, 21, 12.5}, false, "37", "21", "12.5"}, Case{{0.37, 0.21, 0.125}, true, "370 mm", "210 mm", "125 mm"},
-                            Case{{3.75, 2.5, 1.25}, true, "3.75 m", "2.5 m", "1.25 m"}}) {
+    for (const Case& one :
+         {Case{{37, 21, 12.5}, 0, "37", "21", "12.5"}, Case{{0.37, 0.21, 0.125}, 1, "370 mm", "210 mm", "125 mm"},
+          Case{{3.75, 2.5, 1.25}, 1, "3.75 m", "2.5 m", "1.25 m"}, Case{{1.5, 1.25, 1.125}, 0.001, "1500 mm", "1250 mm", "1125 mm"}}) {
         Sheet sheet = sheet_of(box_scene(one.size));
-        if (one.metres) sheet.job.source.file.emplace().format = model_format_name(ModelFormat::glb);
+        sheet.job.source.file.emplace().unit_m = one.unit_m;
         const auto page = look_sheet(sheet.job, sheet.shots, sheet.contents, Projection::third_angle, "");
         REQUIRE(page);
         // Front shows x and y, right z and y, top x and z; iso none.

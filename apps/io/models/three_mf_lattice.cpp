@@ -134,7 +134,9 @@ void sweep_lattice(Object& object, const std::string& where, ModelBuilder& build
         sweeper.add_half_ball(outline, 0.0, ball.radius, 1);
         sweeper.turn(object.vertices[vertex], {0, 0, 1}, outline, ball.group, {ball.property, ball.property});
     }
-    if (bad > 0) builder.document().warn(fmt::format("{}: {} beams and balls out of range left out", where, bad));
+    if (bad > 0)
+        builder.document().go_on_without({{ErrorCode::bad_input, fmt::format("{}: {} beams and balls are out of range", where, bad)}},
+                                         "they are left out");
 }
 
 }  // namespace halflit::io::detail

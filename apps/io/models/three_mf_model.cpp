@@ -45,7 +45,7 @@ public:
     Model take() {
         if (faults_ > 0) {
             const std::string more = faults_ == 1 ? "" : fmt::format(", and {} more faults", faults_ - 1);
-            builder_.document().go_on_without(first_fault_, "read without it" + more);
+            builder_.document().go_on_without(first_fault_, "read as well as it can be" + more);
         }
         return std::move(model_);
     }

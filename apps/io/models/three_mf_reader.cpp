@@ -148,8 +148,7 @@ private:
             if (!object.is_component && !object.is_support) items.push_back({"", id, {}, true});
         builder_.document().geometry.take(items.size() * sizeof(Component));
         if (!items.empty())
-            builder_.document().go_on_without(
-                {{ErrorCode::bad_input, printable(root.name, 120) + ": the build has no items that are there"}}, "all objects are drawn");
+            builder_.document().warn(printable(root.name, 120) + ": the build has no items that are there; all objects are drawn");
         return items;
     }
 
