@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <limits>
+#include <tuple>
 
 using namespace halflit;
 using namespace halflit::test;
@@ -161,6 +163,36 @@ TEST_CASE("tolerance: directions of length 0 are made anew, and those among othe
     const int normal = file.add(one_zero, vec3), tangent = file.add(tangents, R"("componentType":5126,"count":3,"type":"VEC4")");
     file.attributes += fmt::format(",\"NORMAL\":{},\"TANGENT\":{}", normal, tangent);
     CHECK(load_ok(file.file()).scene.meshes.at(0).tangents.empty());
+}
+
+TEST_CASE("tolerance: a value that is not finite is that vertex' alone, and refused by the strict rules", "[io]") {
+    const std::string vec2 = R"("componentType":5126,"count":3,"type":"VEC2")", vec3 = R"("componentType":5126,"count":3,"type":"VEC3")",
+                      vec4 = R"("componentType":5126,"count":3,"type":"VEC4")";
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+        Bytes normals, tangents, uv, colors, deltas;
+        append<float>(normals, {0, bad, 1, 0, 1, 0, 0, 1, 0});
+        append<float>(tangents, {bad, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, -1});
+        append<float>(uv, {0, 0, 2, 0, bad, 3});
+        append<float>(colors, {.5f, 0, 0, .5f, 1, bad, 0, 1, 0, 0, 1, 1});
+        append<float>(deltas, {0, 0, bad, 0, 0, 1, 0, 0, 2});
+        TriangleFile file;
+        file.attributes += fmt::format(",\"NORMAL\":{},\"TANGENT\":{},\"TEXCOORD_0\":{},\"COLOR_0\":{}", file.add(normals, vec3),
+                                       file.add(tangents, vec4), file.add(uv, vec2), file.add(colors, vec4));
+        const std::string target = fmt::format("}},\"targets\":[{{\"POSITION\":{}}}]}}],\"weights\":[1]", file.add(deltas, vec3));
+        const LoadedScene loaded = load_ok(glb(replaced(file.json(), "}}]", target), file.bin));
+        const Mesh& mesh = loaded.scene.meshes.at(0);
+        CHECK(mesh.normals == std::vector<Vec3f>{{0, 0, 1}, {0, 1, 0}, {0, 1, 0}});
+        CHECK(mesh.tangents == std::vector<Vec4f>{{1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 1, -1}});
+        CHECK(mesh.uv0 == std::vector<Vec2f>{{0, 0}, {2, 0}, {0, 0}});
+        CHECK(mesh.colors == std::vector<Vec4f>{{.5f, 0, 0, .5f}, {1, 1, 1, 1}, {0, 0, 1, 1}});
+        CHECK(mesh.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 1}, {0, 1, 2}});
+        CHECK(loaded.warnings.size() == 5);
+        for (const auto& [name, data, type] : {std::tuple{"NORMAL", &normals, &vec3}, {"TEXCOORD_0", &uv, &vec2}, {"COLOR_0", &colors, &vec4}}) {
+            const auto refused = load(with_attribute(name, *data, *type));
+            REQUIRE_FALSE(refused);
+            CHECK(refused.error().message.find(name) != std::string::npos);
+        }
+    }
 }
 
 TEST_CASE("tolerance: the sides of a skinned mesh are by the sign of its node's transform", "[io]") {
