@@ -232,3 +232,29 @@ TEST_CASE("tolerance: an animation that begins without size is drawn at another 
     CHECK(load_ok(file.file()).scene.instances.at(0).world_from_object.c[0].x == 2.0f);
     CHECK(load_ok(file.file(), strictly()).scene.instances.at(0).world_from_object.c[0].x == 0.0f);
 }
+
+TEST_CASE("tolerance: an animation that hides all is left out, unless it was asked for", "[io]") {
+    Bytes times, scales, hidden;
+    append<float>(times, {0, 2});
+    append<float>(scales, {0, 0, 0, 0, 0, 0});
+    append<std::uint8_t>(hidden, {0, 0, 0, 0});
+    TriangleFile file;
+    const int input = file.add(times, R"("componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[2])");
+    const int scale = file.add(scales, R"("componentType":5126,"count":2,"type":"VEC3")");
+    const int visible = file.add(hidden, R"("componentType":5121,"count":2,"type":"SCALAR")");
+    constexpr const char* kVisible =
+        R"("path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/nodes/0/extensions/KHR_node_visibility/visible"}})";
+    for (const auto& [target, output] : {std::pair{R"("node":0,"path":"scale")", scale}, {kVisible, visible}}) {
+        file.rest = fmt::format(R"(,"animations":[{{"channels":[{{"sampler":0,"target":{{{}}}}}],"samplers":[{{"input":{},"output":{},)"
+                                R"("interpolation":"STEP"}}]}}])",
+                                target, input, output);
+        const LoadedScene loaded = load_ok(file.file());
+        CHECK(loaded.scene.instances.at(0).world_from_object == Mat4{});
+        CHECK(loaded.scene.meshes.at(0).indices.size() == 3);
+        CHECK(loaded.animation == -1);
+        CHECK(loaded.warnings.back() == "animations[0]: hides all; drawn without it");
+        LoadOptions asked;
+        asked.animation = "0";
+        CHECK(load_ok(file.file(), asked).animation == 0);
+    }
+}
