@@ -44,7 +44,7 @@ std::vector<std::string> files_of(const Document& document) {
         if (image.uri && !is_data_uri(*image.uri)) uris.insert(*image.uri);
     std::vector<std::string> files;
     for (const std::string_view uri : uris) {
-        const Result<std::string> name = decode_file_uri(uri);
+        const Result<std::string> name = decode_file_uri(uri, !document.options.strict);
         if (!name) continue;
         for (std::string& path : document.folder.places(*name)) files.push_back(std::move(path));
     }

@@ -125,11 +125,11 @@ void begin_place(F f, V) {
     f.place = &f.file.materials.back().places[Slot];
 }
 
-/// A number of the material that is being read, or the next one of a few.
+/// A number of the material that is being read, or one of a few.
 template <std::size_t Row>
 void put_material_number(F f, V value) {
     constexpr auto kCount = static_cast<std::size_t>(shading::kMaterialNumbers[Row].count);
-    const std::size_t at = kCount == 1 ? 0 : f.component++;
+    const std::size_t at = kCount == 1 ? 0 : f.component;
     if (at < kCount) f.file.materials.back().numbers[shading::kFirstFloats[Row] + at] = value.number;
 }
 

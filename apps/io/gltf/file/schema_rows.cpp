@@ -284,8 +284,7 @@ void add_number(std::vector<SchemaRow>& rows, std::deque<std::string>& paths) {
     if (of.gltf.empty()) return;
     std::string path = "materials/#/" + std::string(of.gltf);
     if (of.count > 1) {
-        rows.push_back(
-            {paths.emplace_back(path), array, [](F f, V) { f.component = 0; }, Target::none, nullptr, static_cast<std::size_t>(of.count)});
+        rows.push_back({paths.emplace_back(path), array, nullptr, Target::none, nullptr, static_cast<std::size_t>(of.count)});
         path += "/#";
     }
     rows.push_back(restricted({paths.emplace_back(path), number, put_material_number<Row>}, range_of(of)));
