@@ -1,6 +1,8 @@
 // Files that break a rule of glTF and leave no doubt of what they mean: viewers draw them, and so does the loader, with a warning that
 // names the place. The strict rules refuse them.
 #include "tests/io/gltf_builder.hpp"
+#include "tests/io/png_maker.hpp"
+#include "tests/support/system.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -105,6 +107,19 @@ TEST_CASE("tolerance: what viewers draw is drawn with a warning, and refused by 
          "KHR_xmp_json_ld is not supported, drawn without it", none},
         {"skin that is not there", triangle_file("{\"mesh\":0}", R"({"mesh":0,"skin":3})"), "index 3, but the file has 0 skins, ignored",
          none},
+        {"trailing commas", triangle_file("{\"mesh\":0}", "{\"mesh\":0,},"), "expected a key in double quotes, found \"}\" (and 1 more", none},
+        {"commas alone", triangle_file("\"nodes\":[{", "\"extras\":[, , ],\"nodes\":[,,{"), "expected a JSON value, found \",\"", none},
+        {"comments", triangle_file("{\"mesh\":0}", "/* a * / */ {\"mesh\":0 // it\n}"), "a comment, which JSON has not", none},
+        {"numbers of other languages", triangle_file("{\"mesh\":0}", "{\"mesh\":00,\"translation\":[+3.,.5,-01e0]}"), "(and 3 more such places)", at_x(3)},
+        {"numbers that are not finite",
+         triangle_file("{\"mesh\":0}", R"({"mesh":0,"translation":[5,-nan(ind),1.#INF],"extras":[NaN,-Infinity,inf,-1.#IND00,1.#QNAN]})"),
+         "found \"nan\" (and 6 more such places), which is no JSON", at_x(0)},
+        {"a weight that is not finite", triangle_file("{\"primitives\"", R"({"weights":[NaN,1],"primitives")"), "found \"NaN\"", none},
+        {"control character", triangle_file("{\"mesh\":0}", "{\"mesh\":0,\"name\":\"a\tb\"}"), "a control character in a string",
+         [](const LoadedScene& loaded) { CHECK(loaded.nodes.at(0).name == "a\tb"); }},
+        {"path of Windows", triangle_file("{\"mesh\":0}", R"({"mesh":0,"name":"C:\\parts\\united\\x.png"})"), nullptr, none},
+        {"backslashes", triangle_file("{\"mesh\":0}", R"({"mesh":0,"name":"C:\Users\ud800\x"})"), "expected an escape sequence",
+         [](const LoadedScene& loaded) { CHECK(loaded.nodes.at(0).name == "C:\\Users\xEF\xBF\xBD\\x"); }},
         {"material that is not there", triangle_file("}}]", R"(},"material":4}])"), "index 4, but the file has 0 materials, ignored", none},
     };
     for (const Case& c : cases) {
@@ -193,6 +208,39 @@ TEST_CASE("tolerance: a value that is not finite is that vertex' alone, and refu
             CHECK(refused.error().message.find(name) != std::string::npos);
         }
     }
+}
+
+TEST_CASE("tolerance: files named by paths of another computer are found beside the model, and nothing else is", "[io]") {
+    const TemporaryFolder root;
+    const auto write = [&](const char* name, const Bytes& bytes) {
+        root.write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    };
+    write("model/textures/plain.png", plain_png(2, 2, 255, 0, 0));
+    write("model/Points.bin", TriangleFile().bin);
+    write("secret.png", plain_png(2, 2, 0, 255, 0));
+    const std::string folder = (root / "model").string();
+    const auto loaded = [&](const std::string& picture, const std::string& buffer) {
+        const std::string text = replaced(triangle_with("\"byteLength\":36}],\"bufferViews\"",
+                                                        "\"byteLength\":36,\"uri\":\"" + buffer + "\"}],\"bufferViews\""),
+                                          "}}]", "},\"material\":0}]");
+        return load_ok(to_bytes(text.substr(0, text.size() - 1) +
+                                R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
+                                R"("images":[{"uri":")" +
+                                picture + "\"}]}"),
+                       {}, folder);
+    };
+    for (const char* path : {"C:/Users/me/", "c:\\\\Users\\\\", "C:\\Users\\", "file:///home/me/", "file://host/a/", "FILE:", "/home/me/", "\\\\\\\\server\\\\"}) {
+        INFO(path);
+        const LoadedScene found = loaded(std::string(path) + "PLAIN.png", std::string(path) + "points.bin");
+        CHECK(found.scene.textures.size() == 1);
+        CHECK(found.scene.materials.at(0).textures[TextureSlot::base_color].used());
+        CHECK(found.info.triangles_drawn == 1);
+        CHECK_FALSE(found.warnings.empty());
+        CHECK_FALSE(loaded(std::string(path) + "secret.png", "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
+        CHECK_FALSE(loaded(std::string(path) + "../secret.png", "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
+    }
+    for (const char* other : {"http://host/plain.png", "file:///../../secret.png", "file:..", "C:..", "file:", "C:", "file:///"})
+        CHECK_FALSE(loaded(other, "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
 }
 
 TEST_CASE("tolerance: the sides of a skinned mesh are by the sign of its node's transform", "[io]") {

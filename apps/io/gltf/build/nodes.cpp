@@ -145,7 +145,7 @@ NodeTree walk_nodes(Document& document) {
     if (!chooses || has_mesh(file, tree.drawn) || !has_mesh(file, tree.order)) return tree;
     if (const int other = scene_with_mesh(file, parent); other >= 0) {
         document.warn(fmt::format("scenes[{}]: has no mesh; scenes[{}] is drawn, which has some", document.info.scene, other));
-        document.info.scene = other;
+        file.scene = document.info.scene = other;
         draw(other);
     } else {
         document.warn("scenes: none has a mesh; all nodes are drawn");

@@ -1,5 +1,6 @@
 #include "apps/io/gltf/build/skin.hpp"
 
+#include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
@@ -58,6 +59,8 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
     };
     std::vector<Set> sets;
     for (int set = 0;; ++set) {
+        check_time();
+        charge_work(8 * primitive.attributes.size());
         const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
         const Accessor* joint_accessor =
             reader.attribute(list, primitive.attributes, {joints.c_str(), 4, 4, kSmallUnsigned, {}, {}, {}}, std::nullopt);

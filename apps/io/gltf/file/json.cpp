@@ -263,6 +263,7 @@ private:
                 break;
             case Rule::array:
                 good = value.type == JsonType::array;
+                file_.has_dictionaries |= value.type == JsonType::object && levels_.size() == 1;
                 break;
             case Rule::string:
                 good = value.type == JsonType::string;

@@ -173,6 +173,15 @@ void put_own_lobe(F f, V value) {
     (*f.file.materials.back().own_lobe).parameters.*Member = static_cast<float>(value.number);
 }
 
+inline void put_version(F f, V value) {
+    if (value.type == JsonType::string)
+        f.file.version = f.keep(value);
+    else if (value.number >= 1 && value.number < 2)
+        f.file.version = "1.0";  // some of these have a number; refused
+    else
+        fault(value, fmt::format("expected a string, found {}", name_of(value.type)));
+}
+
 inline void put_generator(F f, V value) {
     if (value.type == JsonType::string) f.file.generator = f.keep(value);
 }

@@ -55,7 +55,7 @@ constexpr Range kCone{.low = 0, .high = kHalfPi, .low_open = true};
 
 constexpr SchemaRow kRows[] = {
     {"asset!", object},
-    {"asset/version!", string, put_file<&File::version>},
+    {"asset/version!", any, put_version},
     {"asset/minVersion", string, put_file<&File::min_version>},
     {"asset/generator", any, put_generator},
     {"extensionsUsed/#", string, put_file<&File::extensions_used>},
