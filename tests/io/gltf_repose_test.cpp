@@ -156,7 +156,8 @@ Bytes pointed() {
                        a.json("all") + "," + b.json("red") + "]");
 }
 
-/// Sixteen vertices that a morph target lifts, and one that lies 1e13 times farther away at the time 0, or is taken there by the target at once.
+/// Sixteen vertices that a morph target lifts, and one that lies 1e13 times farther away at the time 0, or is taken there by the target at
+/// once.
 Bytes with_stray(bool at_first) {
     FilePieces pieces;
     AnimationText animation;

@@ -107,10 +107,12 @@ TEST_CASE("tolerance: what viewers draw is drawn with a warning, and refused by 
          "KHR_xmp_json_ld is not supported, drawn without it", none},
         {"skin that is not there", triangle_file("{\"mesh\":0}", R"({"mesh":0,"skin":3})"), "index 3, but the file has 0 skins, ignored",
          none},
-        {"trailing commas", triangle_file("{\"mesh\":0}", "{\"mesh\":0,},"), "expected a key in double quotes, found \"}\" (and 1 more", none},
+        {"trailing commas", triangle_file("{\"mesh\":0}", "{\"mesh\":0,},"), "expected a key in double quotes, found \"}\" (and 1 more",
+         none},
         {"commas alone", triangle_file("\"nodes\":[{", "\"extras\":[, , ],\"nodes\":[,,{"), "expected a JSON value, found \",\"", none},
         {"comments", triangle_file("{\"mesh\":0}", "/* a * / */ {\"mesh\":0 // it\n}"), "a comment, which JSON has not", none},
-        {"numbers of other languages", triangle_file("{\"mesh\":0}", "{\"mesh\":00,\"translation\":[+3.,.5,-01e0]}"), "(and 3 more such places)", at_x(3)},
+        {"numbers of other languages", triangle_file("{\"mesh\":0}", "{\"mesh\":00,\"translation\":[+3.,.5,-01e0]}"),
+         "(and 3 more such places)", at_x(3)},
         {"numbers that are not finite",
          triangle_file("{\"mesh\":0}", R"({"mesh":0,"translation":[5,-nan(ind),1.#INF],"extras":[NaN,-Infinity,inf,-1.#IND00,1.#QNAN]})"),
          "found \"nan\" (and 6 more such places), which is no JSON", at_x(0)},
@@ -202,7 +204,8 @@ TEST_CASE("tolerance: a value that is not finite is that vertex' alone, and refu
         CHECK(mesh.colors == std::vector<Vec4f>{{.5f, 0, 0, .5f}, {1, 1, 1, 1}, {0, 0, 1, 1}});
         CHECK(mesh.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 1}, {0, 1, 2}});
         CHECK(loaded.warnings.size() == 5);
-        for (const auto& [name, data, type] : {std::tuple{"NORMAL", &normals, &vec3}, {"TEXCOORD_0", &uv, &vec2}, {"COLOR_0", &colors, &vec4}}) {
+        for (const auto& [name, data, type] :
+             {std::tuple{"NORMAL", &normals, &vec3}, {"TEXCOORD_0", &uv, &vec2}, {"COLOR_0", &colors, &vec4}}) {
             const auto refused = load(with_attribute(name, *data, *type));
             REQUIRE_FALSE(refused);
             CHECK(refused.error().message.find(name) != std::string::npos);
@@ -220,16 +223,17 @@ TEST_CASE("tolerance: files named by paths of another computer are found beside 
     write("secret.png", plain_png(2, 2, 0, 255, 0));
     const std::string folder = (root / "model").string();
     const auto loaded = [&](const std::string& picture, const std::string& buffer) {
-        const std::string text = replaced(triangle_with("\"byteLength\":36}],\"bufferViews\"",
-                                                        "\"byteLength\":36,\"uri\":\"" + buffer + "\"}],\"bufferViews\""),
-                                          "}}]", "},\"material\":0}]");
+        const std::string text =
+            replaced(triangle_with("\"byteLength\":36}],\"bufferViews\"", "\"byteLength\":36,\"uri\":\"" + buffer + "\"}],\"bufferViews\""),
+                     "}}]", "},\"material\":0}]");
         return load_ok(to_bytes(text.substr(0, text.size() - 1) +
                                 R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
                                 R"("images":[{"uri":")" +
                                 picture + "\"}]}"),
                        {}, folder);
     };
-    for (const char* path : {"C:/Users/me/", "c:\\\\Users\\\\", "C:\\Users\\", "file:///home/me/", "file://host/a/", "FILE:", "/home/me/", "\\\\\\\\server\\\\"}) {
+    for (const char* path : {"C:/Users/me/", "c:\\\\Users\\\\", "C:\\Users\\", "file:///home/me/", "file://host/a/", "FILE:", "/home/me/",
+                             "\\\\\\\\server\\\\"}) {
         INFO(path);
         const LoadedScene found = loaded(std::string(path) + "PLAIN.png", std::string(path) + "points.bin");
         CHECK(found.scene.textures.size() == 1);
@@ -237,7 +241,8 @@ TEST_CASE("tolerance: files named by paths of another computer are found beside 
         CHECK(found.info.triangles_drawn == 1);
         CHECK_FALSE(found.warnings.empty());
         CHECK_FALSE(loaded(std::string(path) + "secret.png", "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
-        CHECK_FALSE(loaded(std::string(path) + "../secret.png", "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
+        CHECK_FALSE(
+            loaded(std::string(path) + "../secret.png", "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
     }
     for (const char* other : {"http://host/plain.png", "file:///../../secret.png", "file:..", "C:..", "file:", "C:", "file:///"})
         CHECK_FALSE(loaded(other, "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());

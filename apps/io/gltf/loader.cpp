@@ -115,7 +115,8 @@ LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_di
     LoadedScene loaded;
     loaded.animations = describe_animations(document->file, animations);
     loaded.animation = document->animations.drawn;
-    const std::shared_ptr<Motion> motion = options.keep_animations ? std::make_shared<Motion>(document->file, tree, options.recentre) : nullptr;
+    const std::shared_ptr<Motion> motion =
+        options.keep_animations ? std::make_shared<Motion>(document->file, tree, options.recentre) : nullptr;
     for (const Animation& animation : animations)
         if (animation.index == loaded.animation) apply(animation, options.time_s, document->file);
     place_nodes(document->file, tree);

@@ -237,13 +237,15 @@ Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest& request, bo
                                 [&](draco::AttributeValueIndex index, T* to) { return attribute->ConvertValue(index, count, to); });
         if (converted == nullptr) return false;
         *converted = true;
-        constexpr auto kLow = static_cast<double>(std::numeric_limits<T>::lowest()), kHigh = static_cast<double>(std::numeric_limits<T>::max());
+        constexpr auto kLow = static_cast<double>(std::numeric_limits<T>::lowest()),
+                       kHigh = static_cast<double>(std::numeric_limits<T>::max());
         return store_all<T>(*attribute, vertices(), request, out, [&](draco::AttributeValueIndex index, T* to) {
             float values[16] = {};
             if (!floats.read(index, values)) return false;
             for (std::size_t c = 0; c < 16; ++c) {
                 const double value = double{values[c]} * (request.normalized ? kHigh : 1.0);
-                to[c] = value > kLow ? static_cast<T>(std::min(value + (value < 0.0 ? -0.5 : 0.5), kHigh)) : std::numeric_limits<T>::lowest();
+                to[c] =
+                    value > kLow ? static_cast<T>(std::min(value + (value < 0.0 ? -0.5 : 0.5), kHigh)) : std::numeric_limits<T>::lowest();
             }
             return true;
         });

@@ -288,7 +288,8 @@ private:
         const std::optional<unsigned> found = peek() == 'u' ? hex4(at_ + 1) : std::nullopt;
         if (!found) {  // a path of Windows, say
             at_ += peek() == 'u' ? 1 : 0;
-            const JsonFault fault = other_than(at_ > 0 && text_[at_ - 1] == 'u' ? "four hexadecimal digits after \\u" : "an escape sequence");
+            const JsonFault fault =
+                other_than(at_ > 0 && text_[at_ - 1] == 'u' ? "four hexadecimal digits after \\u" : "an escape sequence");
             if (at_ >= text_.size()) throw fault;
             visitor_.on_loose(fault);
             out += text_[at_ - 1] == 'u' ? "\\u" : "\\";
