@@ -1,5 +1,5 @@
 // Runs a target on files, without libFuzzer: those that a fuzzer once found, and seeds with simple mutations of them.
-//   halflit_fuzz_replay TARGET [--mutations N] FILE|FOLDER...
+//   halflit_fuzz_replay TARGET [--mutations N] [--seed S] FILE|FOLDER...
 #include "tests/fuzz/target.hpp"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     const auto* const found = std::find_if(std::begin(kTargets), std::end(kTargets),
                                            [&](const FuzzTarget* target) { return argc > 1 && std::strcmp(target->name, argv[1]) == 0; });
     if (found == std::end(kTargets)) {
-        std::fprintf(stderr, "usage: halflit_fuzz_replay TARGET [--mutations N] FILE|FOLDER...\ntargets:");
+        std::fprintf(stderr, "usage: halflit_fuzz_replay TARGET [--mutations N] [--seed S] FILE|FOLDER...\ntargets:");
         for (const FuzzTarget* target : kTargets) std::fprintf(stderr, " %s", target->name);
         std::fprintf(stderr, "\n");
         return 2;
@@ -81,6 +81,10 @@ int main(int argc, char** argv) {
     for (int i = 2; i < argc; ++i) {
         if (std::strcmp(argv[i], "--mutations") == 0 && i + 1 < argc) {
             times = std::atoi(argv[++i]);
+            continue;
+        }
+        if (std::strcmp(argv[i], "--seed") == 0 && i + 1 < argc) {
+            mutations() = Random(std::strtoull(argv[++i], nullptr, 10));
             continue;
         }
         std::vector<std::filesystem::path> paths;

@@ -169,6 +169,14 @@ TEST_CASE("uri: data URIs decode as RFC 4648 says, and broken ones are refused",
                             "data:;base64,Zg=", "data:;base64,Zm 9v", "data:,%2", "data:,%zz"})
         CHECK(!decode_data_uri(bad, 1000));
     CHECK(decode_data_uri("data:;base64,Zm9vYmFy", 5).error().code == ErrorCode::limit);
+    for (const char* loose : {" Zm9v\n\tYmFy\r\n", "Zm9v%20YmFy%0A", "Zm9vYmE%3D", "Zm9vYm$y"}) {
+        bool mended = false;
+        const std::string uri = std::string("data:;base64,") + loose;
+        CHECK(!decode_data_uri(uri, 1000));
+        const auto bytes = decode_data_uri(uri, 1000, &mended);
+        CHECK(bytes.has_value() == mended);
+        CHECK(mended == (uri.find('$') == std::string::npos));
+    }
     for (std::size_t size = 0; size < 50; ++size) {
         Bytes bytes(size);
         for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::byte>(i * 89 + size * 31);
@@ -182,6 +190,11 @@ TEST_CASE("uri: names are percent-decoded once, addresses are refused", "[io]") 
     CHECK(*decode_file_uri("a b.png") == "a b.png");
     CHECK(*decode_file_uri("%E4%BD%A0.png") == "\xE4\xBD\xA0.png");
     CHECK(*decode_file_uri("a%2520b") == "a%20b");
+    CHECK(*decode_file_uri("file:///home/me/a%20b.png", true) == "///home/me/a b.png");
+    CHECK(*decode_file_uri("FILE:C:\\x.png", true) == "C:\\x.png");
+    CHECK(*decode_file_uri("C:/x.png", true) == "C:/x.png");
+    CHECK(*decode_file_uri("100%.png", true) == "100%.png");
+    CHECK(!decode_file_uri("http://host/x.png", true));
     CHECK(*decode_file_uri("..%2fx") == "../x");  // refused later, by ModelFolder
     for (const char* bad : {"http://example.org/a.bin", "file:///etc/passwd", "C:/a.bin", "a%", "a%2", "a%zz", "a%00b"})
         CHECK(!decode_file_uri(bad));

@@ -266,6 +266,16 @@ TEST_CASE("draco: counts, types and attributes that differ from the accessors' a
     has(refusal("\"bufferView\":0", "\"bufferView\":3"), "bufferView");
 }
 
+TEST_CASE("draco: floats become the integers of the accessor, or are refused by the strict rules", "[io]") {
+    const Bytes data = stream({});
+    const std::string json =
+        replaced(json_of(data.size()), accessor("VEC2", 5126, kVertices), accessor("VEC2", 5123, kVertices, ",\"normalized\":true"));
+    const LoadedScene loaded = load_ok(glb(json, data));
+    CHECK(loaded.warnings.size() == 1);
+    CHECK(compare(loaded.scene.meshes.at(0)).uv < 1.0 / 4096 + 1.0 / 65535);
+    CHECK(!load(glb(json, data)));
+}
+
 TEST_CASE("draco: counts that the stream claims are held against the limit before memory is taken", "[io]") {
     Bytes data = stream({});
     // Sequential streams say how many triangles and vertices they have behind the header of 11 bytes, edgebreaker streams one byte later.

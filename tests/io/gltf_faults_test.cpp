@@ -29,6 +29,25 @@ Bytes text_file(const std::string& json) { return to_bytes(json); }
 
 }  // namespace
 
+TEST_CASE("gltf: files of the first version are refused with the way to convert them", "[io]") {
+    const std::string lists =
+        R"("buffers":{},"meshes":{"m":{"primitives":[]}},"nodes":{"n":{"meshes":["m"]}},"scenes":{"s":{"nodes":["n"]}})";
+    const auto refused = [](const Bytes& file, const LoadOptions& options) {
+        const auto loaded = load(file, options);
+        REQUIRE(!loaded);
+        CHECK(loaded.error().code == ErrorCode::bad_input);
+        INFO(loaded.error().message);
+        CHECK(loaded.error().message.find("is glTF 1.0, expected 2.0; convert it with gltf-pipeline") != std::string::npos);
+    };
+    for (const char* version : {"\"1.0\"", "\"1.1\"", "1.0", "1"})
+        for (const LoadOptions& options : {LoadOptions{}, strictly()})
+            refused(to_bytes(std::string("{\"asset\":{\"version\":") + version + "}}"), options);
+    for (const char* asset : {"\"asset\":{},", "\"asset\":{\"version\":1.0},", ""}) refused(to_bytes("{" + (asset + lists) + "}"), {});
+    Bytes container = glb("{}");
+    put<std::uint32_t>(container, 4, 1);
+    refused(container, {});
+}
+
 TEST_CASE("faults: broken JSON is refused with line and column", "[io]") {
     CHECK(refusal(text_file("{\n\"asset\":{\"version\":NaN}}")).message ==
           "test.glb: asset.version: line 2, column 20: expected a JSON value, found \"NaN\"");

@@ -101,7 +101,26 @@ TEST_CASE("nodes: a mesh whose transform leaves the range of float is not drawn,
 }
 
 TEST_CASE("nodes: a file without anything to draw loads with a warning", "[io]") {
-    CHECK(load_ok(with_nodes("{}", R"({"nodes":[0]})")).warnings == std::vector<std::string>{"the model has nothing to draw"});
+    CHECK(load_ok(with_nodes("{}", R"({"nodes":[0]})"), strictly()).warnings == std::vector<std::string>{"the model has nothing to draw"});
+}
+
+TEST_CASE("nodes: where the scene has no mesh, what has one is drawn, unless a scene was asked for", "[io]") {
+    const auto drawn = [](const std::string& nodes, const std::string& scenes, const LoadOptions& options = {}) {
+        std::vector<float> out;  // x of the instances
+        for (const Instance& instance : load_ok(with_nodes(nodes, scenes), options).scene.instances)
+            out.push_back(instance.world_from_object.c[3].x);
+        return out;
+    };
+    LoadOptions first;
+    first.scene = "0";
+    const std::string two = R"({},{"mesh":0,"translation":[1,0,0]},{"mesh":0,"translation":[2,0,0]},{"children":[1]})";
+    CHECK(drawn(two, R"({"nodes":[0]},{},{"nodes":[0,3]},{"nodes":[2]})") == std::vector<float>{1});
+    CHECK(drawn(two, R"({"nodes":[0]},{"nodes":[3]})", first).empty());
+    CHECK(drawn(two, R"({"nodes":[0]},{"nodes":[3]})", strictly()).empty());
+    CHECK(drawn(two, R"({"nodes":[0]})") == std::vector<float>{2, 1});  // in the order of the roots
+    CHECK(drawn(R"({"translation":[5,0,0]})", R"({"nodes":[0]})") == std::vector<float>{0});
+    CHECK(drawn(R"({"translation":[5,0,0]})", "{}") == std::vector<float>{0});
+    CHECK(load_ok(with_nodes("{}", "{}")).nodes.size() == 2);  // that of the mesh is behind the file's
 }
 
 TEST_CASE("nodes: cameras are placed without their nodes' scale", "[io]") {

@@ -156,11 +156,33 @@ Bytes pointed() {
                        a.json("all") + "," + b.json("red") + "]");
 }
 
+/// Sixteen vertices that a morph target lifts, and one that lies 1e13 times farther away at the time 0, or is taken there by the target at
+/// once.
+Bytes with_stray(bool at_first) {
+    FilePieces pieces;
+    AnimationText animation;
+    std::vector<float> positions, deltas;
+    for (int i = 0; i < 51; ++i) {
+        positions.push_back(static_cast<float>(i % 3 == 0 ? i % 12 : i % 3 == 1 ? i / 12 : 0));
+        deltas.push_back(i % 3 == 2 ? 0.25f : 0.0f);
+    }
+    (at_first ? positions : deltas)[48] = 1e13f;
+    const int position = pieces.floats(positions, "VEC3", 3), delta = pieces.floats(deltas, "VEC3", 3);
+    Bytes corners;
+    append<std::uint16_t>(corners, {0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 4, 5, 9, 4, 9, 8, 5, 6, 16});
+    const int index = pieces.accessor(corners, R"("componentType":5123,"type":"SCALAR","count":21)");
+    const Keys keys = at_first ? Keys::linear : Keys::step;
+    animation.add_node(sampler_of(pieces, {keys, 1, {0, 2}, {0, 1}}, "SCALAR", 1), 0, "weights");
+    return pieces.file(R"("nodes":[{"mesh":0}],"materials":[{"doubleSided":true}],"meshes":[{"primitives":[{"material":0,"indices":)" +
+                       std::to_string(index) + ",\"attributes\":{\"POSITION\":" + std::to_string(position) +
+                       "},\"targets\":[{\"POSITION\":" + std::to_string(delta) + "}]}]}],\"animations\":[" + animation.json("up") + "]");
+}
+
 }  // namespace
 
 TEST_CASE("pose_at: each pose has the bits and the pixels of the file loaded at that time", "[io]") {
     Random random(21);
-    std::vector<Bytes> files{pointed()};
+    std::vector<Bytes> files{pointed(), with_stray(true), with_stray(false)};
     for (const Keys keys : {Keys::linear, Keys::step, Keys::cubic}) files.push_back(Arm(5, keys).file);
     for (const Bytes& file : files) {
         LoadedScene loaded = load_ok(file, at(0, "", true));

@@ -1,12 +1,16 @@
 // Files that break a rule of glTF and leave no doubt of what they mean: viewers draw them, and so does the loader, with a warning that
 // names the place. The strict rules refuse them.
 #include "tests/io/gltf_builder.hpp"
+#include "tests/io/png_maker.hpp"
+#include "tests/support/system.hpp"
 
 #include "tests/support/catch.hpp"
 
 #include <fmt/format.h>
 
 #include <functional>
+#include <limits>
+#include <tuple>
 
 using namespace halflit;
 using namespace halflit::test;
@@ -103,6 +107,21 @@ TEST_CASE("tolerance: what viewers draw is drawn with a warning, and refused by 
          "KHR_xmp_json_ld is not supported, drawn without it", none},
         {"skin that is not there", triangle_file("{\"mesh\":0}", R"({"mesh":0,"skin":3})"), "index 3, but the file has 0 skins, ignored",
          none},
+        {"trailing commas", triangle_file("{\"mesh\":0}", "{\"mesh\":0,},"), "expected a key in double quotes, found \"}\" (and 1 more",
+         none},
+        {"commas alone", triangle_file("\"nodes\":[{", "\"extras\":[, , ],\"nodes\":[,,{"), "expected a JSON value, found \",\"", none},
+        {"comments", triangle_file("{\"mesh\":0}", "/* a * / */ {\"mesh\":0 // it\n}"), "a comment, which JSON has not", none},
+        {"numbers of other languages", triangle_file("{\"mesh\":0}", "{\"mesh\":00,\"translation\":[+3.,.5,-01e0]}"),
+         "(and 3 more such places)", at_x(3)},
+        {"numbers that are not finite",
+         triangle_file("{\"mesh\":0}", R"({"mesh":0,"translation":[5,-nan(ind),1.#INF],"extras":[NaN,-Infinity,inf,-1.#IND00,1.#QNAN]})"),
+         "found \"nan\" (and 6 more such places), which is no JSON", at_x(0)},
+        {"a weight that is not finite", triangle_file("{\"primitives\"", R"({"weights":[NaN,1],"primitives")"), "found \"NaN\"", none},
+        {"control character", triangle_file("{\"mesh\":0}", "{\"mesh\":0,\"name\":\"a\tb\"}"), "a control character in a string",
+         [](const LoadedScene& loaded) { CHECK(loaded.nodes.at(0).name == "a\tb"); }},
+        {"path of Windows", triangle_file("{\"mesh\":0}", R"({"mesh":0,"name":"C:\\parts\\united\\x.png"})"), nullptr, none},
+        {"backslashes", triangle_file("{\"mesh\":0}", R"({"mesh":0,"name":"C:\Users\ud800\x"})"), "expected an escape sequence",
+         [](const LoadedScene& loaded) { CHECK(loaded.nodes.at(0).name == "C:\\Users\xEF\xBF\xBD\\x"); }},
         {"material that is not there", triangle_file("}}]", R"(},"material":4}])"), "index 4, but the file has 0 materials, ignored", none},
     };
     for (const Case& c : cases) {
@@ -163,6 +182,72 @@ TEST_CASE("tolerance: directions of length 0 are made anew, and those among othe
     CHECK(load_ok(file.file()).scene.meshes.at(0).tangents.empty());
 }
 
+TEST_CASE("tolerance: a value that is not finite is that vertex' alone, and refused by the strict rules", "[io]") {
+    const std::string vec2 = R"("componentType":5126,"count":3,"type":"VEC2")", vec3 = R"("componentType":5126,"count":3,"type":"VEC3")",
+                      vec4 = R"("componentType":5126,"count":3,"type":"VEC4")";
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+        Bytes normals, tangents, uv, colors, deltas;
+        append<float>(normals, {0, bad, 1, 0, 1, 0, 0, 1, 0});
+        append<float>(tangents, {bad, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, -1});
+        append<float>(uv, {0, 0, 2, 0, bad, 3});
+        append<float>(colors, {.5f, 0, 0, .5f, 1, bad, 0, 1, 0, 0, 1, 1});
+        append<float>(deltas, {0, 0, bad, 0, 0, 1, 0, 0, 2});
+        TriangleFile file;
+        file.attributes += fmt::format(",\"NORMAL\":{},\"TANGENT\":{},\"TEXCOORD_0\":{},\"COLOR_0\":{}", file.add(normals, vec3),
+                                       file.add(tangents, vec4), file.add(uv, vec2), file.add(colors, vec4));
+        const std::string target = fmt::format("}},\"targets\":[{{\"POSITION\":{}}}]}}],\"weights\":[1]", file.add(deltas, vec3));
+        const LoadedScene loaded = load_ok(glb(replaced(file.json(), "}}]", target), file.bin));
+        const Mesh& mesh = loaded.scene.meshes.at(0);
+        CHECK(mesh.normals == std::vector<Vec3f>{{0, 0, 1}, {0, 1, 0}, {0, 1, 0}});
+        CHECK(mesh.tangents == std::vector<Vec4f>{{1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 1, -1}});
+        CHECK(mesh.uv0 == std::vector<Vec2f>{{0, 0}, {2, 0}, {0, 0}});
+        CHECK(mesh.colors == std::vector<Vec4f>{{.5f, 0, 0, .5f}, {1, 1, 1, 1}, {0, 0, 1, 1}});
+        CHECK(mesh.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 1}, {0, 1, 2}});
+        CHECK(loaded.warnings.size() == 5);
+        for (const auto& [name, data, type] :
+             {std::tuple{"NORMAL", &normals, &vec3}, {"TEXCOORD_0", &uv, &vec2}, {"COLOR_0", &colors, &vec4}}) {
+            const auto refused = load(with_attribute(name, *data, *type));
+            REQUIRE_FALSE(refused);
+            CHECK(refused.error().message.find(name) != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("tolerance: files named by paths of another computer are found beside the model, and nothing else is", "[io]") {
+    const TemporaryFolder root;
+    const auto write = [&](const char* name, const Bytes& bytes) {
+        root.write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    };
+    write("model/textures/plain.png", plain_png(2, 2, 255, 0, 0));
+    write("model/Points.bin", TriangleFile().bin);
+    write("secret.png", plain_png(2, 2, 0, 255, 0));
+    const std::string folder = (root / "model").string();
+    const auto loaded = [&](const std::string& picture, const std::string& buffer) {
+        const std::string text =
+            replaced(triangle_with("\"byteLength\":36}],\"bufferViews\"", "\"byteLength\":36,\"uri\":\"" + buffer + "\"}],\"bufferViews\""),
+                     "}}]", "},\"material\":0}]");
+        return load_ok(to_bytes(text.substr(0, text.size() - 1) +
+                                R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
+                                R"("images":[{"uri":")" +
+                                picture + "\"}]}"),
+                       {}, folder);
+    };
+    for (const char* path : {"C:/Users/me/", "c:\\\\Users\\\\", "C:\\Users\\", "file:///home/me/", "file://host/a/", "FILE:", "/home/me/",
+                             "\\\\\\\\server\\\\"}) {
+        INFO(path);
+        const LoadedScene found = loaded(std::string(path) + "PLAIN.png", std::string(path) + "points.bin");
+        CHECK(found.scene.textures.size() == 1);
+        CHECK(found.scene.materials.at(0).textures[TextureSlot::base_color].used());
+        CHECK(found.info.triangles_drawn == 1);
+        CHECK_FALSE(found.warnings.empty());
+        CHECK_FALSE(loaded(std::string(path) + "secret.png", "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
+        CHECK_FALSE(
+            loaded(std::string(path) + "../secret.png", "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
+    }
+    for (const char* other : {"http://host/plain.png", "file:///../../secret.png", "file:..", "C:..", "file:", "C:", "file:///"})
+        CHECK_FALSE(loaded(other, "Points.bin").scene.materials.at(0).textures[TextureSlot::base_color].used());
+}
+
 TEST_CASE("tolerance: the sides of a skinned mesh are by the sign of its node's transform", "[io]") {
     Bytes joints, weights;
     append<std::uint8_t>(joints, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
@@ -199,4 +284,30 @@ TEST_CASE("tolerance: an animation that begins without size is drawn at another 
         input, output);
     CHECK(load_ok(file.file()).scene.instances.at(0).world_from_object.c[0].x == 2.0f);
     CHECK(load_ok(file.file(), strictly()).scene.instances.at(0).world_from_object.c[0].x == 0.0f);
+}
+
+TEST_CASE("tolerance: an animation that hides all is left out, unless it was asked for", "[io]") {
+    Bytes times, scales, hidden;
+    append<float>(times, {0, 2});
+    append<float>(scales, {0, 0, 0, 0, 0, 0});
+    append<std::uint8_t>(hidden, {0, 0, 0, 0});
+    TriangleFile file;
+    const int input = file.add(times, R"("componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[2])");
+    const int scale = file.add(scales, R"("componentType":5126,"count":2,"type":"VEC3")");
+    const int visible = file.add(hidden, R"("componentType":5121,"count":2,"type":"SCALAR")");
+    constexpr const char* kVisible =
+        R"("path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/nodes/0/extensions/KHR_node_visibility/visible"}})";
+    for (const auto& [target, output] : {std::pair{R"("node":0,"path":"scale")", scale}, {kVisible, visible}}) {
+        file.rest = fmt::format(R"(,"animations":[{{"channels":[{{"sampler":0,"target":{{{}}}}}],"samplers":[{{"input":{},"output":{},)"
+                                R"("interpolation":"STEP"}}]}}])",
+                                target, input, output);
+        const LoadedScene loaded = load_ok(file.file());
+        CHECK(loaded.scene.instances.at(0).world_from_object == Mat4{});
+        CHECK(loaded.scene.meshes.at(0).indices.size() == 3);
+        CHECK(loaded.animation == -1);
+        CHECK(loaded.warnings.back() == "animations[0]: hides all; drawn without it");
+        LoadOptions asked;
+        asked.animation = "0";
+        CHECK(load_ok(file.file(), asked).animation == 0);
+    }
 }

@@ -10,6 +10,14 @@ namespace halflit::io {
 /// A letter of ASCII as a small one.
 [[nodiscard]] constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+/// True if the words are equal but for the case of ASCII letters; `small` has small letters.
+[[nodiscard]] constexpr bool same_word(std::string_view word, std::string_view small) {
+    if (word.size() != small.size()) return false;
+    for (std::size_t i = 0; i < word.size(); ++i)
+        if (lower(word[i]) != small[i]) return false;
+    return true;
+}
+
 /// Control characters, DEL, the C1 controls and bytes that are not UTF-8 become \xNN; at most `max_bytes` of the source are shown.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max_bytes = 200);
 

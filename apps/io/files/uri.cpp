@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -45,6 +46,13 @@ std::optional<std::string> percent_decode(std::string_view text) {
     return out;
 }
 
+/// Base64 without white space and percent sequences.
+std::string packed(std::string_view text) {
+    std::string out = percent_decode(text).value_or(std::string(text));
+    std::erase_if(out, [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); });
+    return out;
+}
+
 Result<std::vector<std::byte>> decode_base64(std::string_view text, std::size_t max_bytes) {
     std::string_view digits = text;
     int padding = 0;
@@ -80,21 +88,20 @@ Result<std::vector<std::byte>> decode_base64(std::string_view text, std::size_t 
 
 }  // namespace
 
-bool is_data_uri(std::string_view uri) {
-    if (uri.size() < 5) return false;
-    constexpr std::string_view kScheme = "data:";
-    for (std::size_t i = 0; i < kScheme.size(); ++i)
-        if ((uri[i] | (kScheme[i] == ':' ? 0 : 0x20)) != kScheme[i]) return false;
-    return true;
-}
+bool is_data_uri(std::string_view uri) { return same_word(uri.substr(0, 5), "data:"); }
 
-Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, std::size_t max_bytes) {
+Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, std::size_t max_bytes, bool* mended) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos) return fail(ErrorCode::bad_input, "data URI: expected a comma after the media type");
     const std::string_view header = uri.substr(5, comma - 5), body = uri.substr(comma + 1);
     constexpr std::string_view kBase64Mark = ";base64";
     if (header.size() >= kBase64Mark.size() && header.substr(header.size() - kBase64Mark.size()) == kBase64Mark) {
         auto bytes = decode_base64(body, max_bytes);
+        if (!bytes && mended != nullptr)
+            if (const std::string clean = packed(body); clean != body) {
+                bytes = decode_base64(clean, max_bytes);
+                *mended = bytes.has_value();
+            }
         if (!bytes) return fail(bytes.error().code, fmt::format("data URI: {}", bytes.error().message));
         return bytes;
     }
@@ -106,12 +113,15 @@ Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, std::size_t
     return std::vector<std::byte>(first, first + plain->size());
 }
 
-Result<std::string> decode_file_uri(std::string_view uri) {
+Result<std::string> decode_file_uri(std::string_view uri, bool tolerant) {
     const std::size_t colon = uri.find(':');
-    if (colon != std::string_view::npos && uri.substr(0, colon).find('/') == std::string_view::npos)
+    const bool elsewhere = tolerant && (colon == 1 || same_word(uri.substr(0, std::min(colon, uri.size())), "file"));
+    if (elsewhere && colon > 1) uri.remove_prefix(colon + 1);
+    if (!elsewhere && colon != std::string_view::npos && uri.substr(0, colon).find('/') == std::string_view::npos)
         return fail(ErrorCode::bad_input,
                     fmt::format("\"{}\": expected a file below the model's folder, found an address with a scheme", printable(uri)));
     std::optional<std::string> name = percent_decode(uri);
+    if (!name && tolerant) name = uri;
     if (!name) return fail(ErrorCode::bad_input, fmt::format("\"{}\": broken percent sequence", printable(uri)));
     if (name->find('\0') != std::string::npos)
         return fail(ErrorCode::bad_input, fmt::format("\"{}\": a file name cannot hold a zero byte", printable(uri)));

@@ -44,7 +44,7 @@ std::vector<std::string> files_of(const Document& document) {
         if (image.uri && !is_data_uri(*image.uri)) uris.insert(*image.uri);
     std::vector<std::string> files;
     for (const std::string_view uri : uris) {
-        const Result<std::string> name = decode_file_uri(uri);
+        const Result<std::string> name = decode_file_uri(uri, !document.options.strict);
         if (!name) continue;
         for (std::string& path : document.folder.places(*name)) files.push_back(std::move(path));
     }
@@ -55,9 +55,13 @@ std::vector<std::string> files_of(const Document& document) {
 
 namespace {
 
-/// True if the scene has instances, and none of them has a volume or an area: an animation may begin with the scale 0.
+/// True if the scene has instances, and none of them has a volume or an area: an animation may begin with the scale 0, or hide all.
 bool has_no_size(const Scene& scene) {
-    const auto is_flat = [](const Instance& instance) {
+    const auto is_flat = [&](const Instance& instance) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const auto differs = [&](std::uint32_t index) { return !(mesh.positions[index] == mesh.positions[mesh.indices[0]]); };
+        const bool has_extent = std::any_of(mesh.indices.begin(), mesh.indices.end(), differs);
+        if (mesh.indices.empty() || (mesh.topology != Topology::points && !has_extent)) return true;
         const Mat4& m = instance.world_from_object;
         const Vec3d xy = cross(axis(m, 0), axis(m, 1)), yz = cross(axis(m, 1), axis(m, 2)), zx = cross(axis(m, 2), axis(m, 0));
         return (dot(xy, xy) + dot(yz, yz)) + dot(zx, zx) == 0.0;
@@ -82,7 +86,13 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
         other.warnings.push_back(fmt::format("at the time 0 nothing has a size; drawn at {:g} s", later.time_s));
         return other;
     }
-    return loaded;
+    if (!options.animation.empty()) return loaded;
+    LoadOptions still = options;
+    still.animation = "none";
+    LoadedScene other = read_at(bytes, base_dir, still);
+    if (has_no_size(other.scene)) return loaded;
+    other.warnings.push_back(fmt::format("animations[{}]: hides all; drawn without it", loaded.animation));
+    return other;
 }
 
 namespace {
@@ -105,7 +115,8 @@ LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_di
     LoadedScene loaded;
     loaded.animations = describe_animations(document->file, animations);
     loaded.animation = document->animations.drawn;
-    const std::shared_ptr<Motion> motion = options.keep_animations ? std::make_shared<Motion>(document->file, tree) : nullptr;
+    const std::shared_ptr<Motion> motion =
+        options.keep_animations ? std::make_shared<Motion>(document->file, tree, options.recentre) : nullptr;
     for (const Animation& animation : animations)
         if (animation.index == loaded.animation) apply(animation, options.time_s, document->file);
     place_nodes(document->file, tree);

@@ -35,14 +35,6 @@ namespace halflit::io::detail {
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 [[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// True if the words are equal but for the case of ASCII letters; `small` has small letters.
-[[nodiscard]] constexpr bool same_word(std::string_view word, std::string_view small) {
-    if (word.size() != small.size()) return false;
-    for (std::size_t i = 0; i < word.size(); ++i)
-        if (lower(word[i]) != small[i]) return false;
-    return true;
-}
-
 /// Of a decimal number other than 0: the power of ten of its first digit, within a few millions.
 [[nodiscard]] inline long long exponent_of(std::string_view word) {
     const std::size_t e = std::min(word.find_first_of("eE"), word.size()), first = std::min(word.find_first_of("123456789"), e);

@@ -225,8 +225,8 @@ private:
         const auto step = static_cast<std::size_t>(components);
         for (std::size_t i = 0; i < output.count(); ++i) output.read_floats(i, track.values.data() + i * step);
         if (const auto bad = std::count_if(track.values.begin(), track.values.end(), [](float v) { return !shading::finite(v); }); bad > 0)
-            document_.warn(fmt::format("{}: {}: {} numbers are not finite; where they count, the file's own value is drawn", where,
-                                       output.name(), bad));
+            document_.go_on_without({{ErrorCode::bad_input, fmt::format("{}: {}: {} numbers are not finite", where, output.name(), bad)}},
+                                    "where they count, the file's own value is drawn");
         if (track.rotation) warn_of_lengths(where, output.name(), track);
     }
 

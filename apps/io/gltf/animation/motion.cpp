@@ -71,7 +71,8 @@ bool has(const std::vector<bool>& list, int index) {
 
 }  // namespace
 
-Motion::Motion(const file::File& file, const NodeTree& tree) : rest_(rest_of(file)), tree_(tree), nodes_(file.nodes.size()) {
+Motion::Motion(const file::File& file, const NodeTree& tree, bool recentre)
+    : rest_(rest_of(file)), tree_(tree), nodes_(file.nodes.size()), recentre_(recentre) {
     tree_.world_from_node.clear();
     tree_.drawn.clear();
 }
@@ -187,6 +188,7 @@ void Motion::deform(const file::File& file, const NodeTree& tree, Scene& scene, 
                 pose_mesh(deformed.source.mesh, deformed.source, weights_of(file, node),
                           deformed.skin >= 0 ? std::span<const Affine>(joints[deformed.skin]) : std::span<const Affine>(), deformed.place)
                     .mesh;
+            if (recentre_) leave_out_strays(posed);
             if (deformed.scale != 1.0) scale_positions(posed, deformed.scale);
         }
         if (same_arrays(mesh, posed)) continue;

@@ -17,7 +17,7 @@ namespace halflit {
 class Motion {
 public:
     /// Keeps of the file what poses need. To be called before an animation is applied to it.
-    Motion(const io::detail::file::File& file, const io::detail::NodeTree& tree);
+    Motion(const io::detail::file::File& file, const io::detail::NodeTree& tree, bool recentre);
 
     /// A copy of a material of the file, whose factors follow it.
     void add_copy(int material, int copy) { copies_.emplace_back(material, copy); }
@@ -43,6 +43,7 @@ private:
     std::vector<bool> hides_;                                           // by node: it is shown and hidden
     std::vector<bool> moved_materials_, moved_cameras_, moved_lights_;  // by number in the file
     std::size_t nodes_ = 0;
+    bool recentre_;  // LoadOptions
     Placement placement_;
 };
 

@@ -97,13 +97,10 @@ ImageStore::Job ImageStore::prepare(int image, ColorSpace space, MipRule rule, i
     if (entry.buffer_view >= 0 && entry.uri) refuse(where, "has both a uri and a bufferView, which exclude each other");
     if (entry.buffer_view >= 0) {
         bytes = document_.view_data(entry.buffer_view);
-    } else if (entry.uri && is_data_uri(*entry.uri)) {
-        owned = take(decode_data_uri(*entry.uri, limits.max_file_bytes), at_uri);
-        bytes = owned;
     } else if (entry.uri) {
-        owned = take(document_.read_named(take(decode_file_uri(*entry.uri), at_uri)), at_uri);
+        owned = document_.read_uri(*entry.uri, at_uri);
         bytes = owned;
-        if (entry.place.empty()) where = fmt::format("{}: \"{}\"", at_uri, printable(*entry.uri, 120));
+        if (entry.place.empty() && !is_data_uri(*entry.uri)) where = fmt::format("{}: \"{}\"", at_uri, printable(*entry.uri, 120));
     } else {
         refuse(where, "expected a uri or a bufferView, found neither");
     }

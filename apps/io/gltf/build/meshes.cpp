@@ -52,6 +52,9 @@ private:
         const bool own = document_.animations.morphs_node(index) || document_.animations.hides_node(index);
         if (is_hidden(index) && !document_.animations.hides_node(index)) return;
         const std::span<const double> all = weights_of(document_.file, index);
+        check_time();
+        charge_work(8 * all.size());
+        document_.geometry.take(all.size() * sizeof(double));
         std::vector<double> weights(all.begin(), all.end());
         while (!weights.empty() && weights.back() == 0.0) weights.pop_back();
         check_weights(index);

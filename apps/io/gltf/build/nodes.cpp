@@ -81,10 +81,38 @@ void check_roots(Document& document, std::size_t scene, const std::vector<int>& 
     }
 }
 
+bool has_mesh(const file::File& file, std::span<const int> nodes) {
+    return std::any_of(nodes.begin(), nodes.end(), [&](int node) { return file.nodes[static_cast<std::size_t>(node)].mesh >= 0; });
+}
+
+/// Where no node has a mesh, though the file has meshes: a node for each of them, at the origin, behind the others.
+void add_nodes_of_meshes(Document& document) {
+    std::vector<file::Node>& nodes = document.file.nodes;
+    const std::size_t meshes = document.file.meshes.size();
+    if (meshes == 0 || std::any_of(nodes.begin(), nodes.end(), [](const file::Node& node) { return node.mesh >= 0; })) return;
+    document.warn("no node has a mesh; the meshes are drawn at the origin");
+    document.geometry.take(meshes * sizeof(file::Node));
+    for (std::size_t mesh = 0; mesh < meshes; ++mesh) nodes.emplace_back().mesh = static_cast<int>(mesh);
+}
+
+/// The first scene that has a mesh; -1: none.
+int scene_with_mesh(const file::File& file, const std::vector<int>& parent) {
+    std::vector<bool> seen(parent.size(), false);  // in a scene before: there is no mesh
+    for (std::size_t scene = 0; scene < file.scenes.size(); ++scene) {
+        std::vector<int> drawn;
+        append_trees(file, parent, file.scenes[scene].nodes, seen, drawn);
+        if (has_mesh(file, drawn)) return static_cast<int>(scene);
+    }
+    return -1;
+}
+
 }  // namespace
 
 NodeTree walk_nodes(Document& document) {
-    const file::File& file = document.file;
+    file::File& file = document.file;
+    const std::size_t nodes_of_file = file.nodes.size();
+    const bool chooses = !document.options.strict && document.options.scene.empty();  // what draws something
+    if (chooses) add_nodes_of_meshes(document);
     NodeTree tree;
     tree.parent = find_parents(document);
     std::vector<int>& parent = tree.parent;
@@ -104,11 +132,24 @@ NodeTree walk_nodes(Document& document) {
     }
     if (file.scenes.empty()) {
         tree.drawn = tree.order;
-    } else {
-        const std::size_t scene = static_cast<std::size_t>(std::max(file.scene, 0));
-        check_roots(document, scene, parent);
+        return tree;
+    }
+    const auto draw = [&](int scene) {
+        check_roots(document, static_cast<std::size_t>(scene), parent);
         seen.assign(parent.size(), false);
-        append_trees(file, parent, file.scenes[scene].nodes, seen, tree.drawn);
+        tree.drawn.clear();
+        append_trees(file, parent, file.scenes[static_cast<std::size_t>(scene)].nodes, seen, tree.drawn);
+    };
+    draw(document.info.scene);
+    for (std::size_t i = nodes_of_file; i < file.nodes.size(); ++i) tree.drawn.push_back(static_cast<int>(i));
+    if (!chooses || has_mesh(file, tree.drawn) || !has_mesh(file, tree.order)) return tree;
+    if (const int other = scene_with_mesh(file, parent); other >= 0) {
+        document.warn(fmt::format("scenes[{}]: has no mesh; scenes[{}] is drawn, which has some", document.info.scene, other));
+        file.scene = document.info.scene = other;
+        draw(other);
+    } else {
+        document.warn("scenes: none has a mesh; all nodes are drawn");
+        tree.drawn = tree.order;
     }
     return tree;
 }

@@ -17,7 +17,8 @@ struct NodeTree {
 };
 
 /// Finds parents and order. The nodes of the default scene are drawn; without one those of the first scene, and all nodes if the file has
-/// no scenes. Throws LoadFailure for a cycle or a node with two parents.
+/// no scenes. Where that scene has no mesh, and none was asked for: another one that has, or all nodes; meshes that no node has get nodes
+/// behind those of the file. By the strict rules the file's scene is drawn, and LoadFailure thrown for a cycle or a node with two parents.
 NodeTree walk_nodes(Document& document);
 
 /// Fills in the transforms and the hidden nodes.

@@ -1,7 +1,6 @@
 #include "apps/io/gltf/build/open.hpp"
 
 #include "apps/io/files/text.hpp"
-#include "apps/io/files/uri.hpp"
 #include "apps/io/gltf/codecs/draco.hpp"
 #include "apps/io/gltf/codecs/meshopt.hpp"
 #include "apps/io/gltf/file/indices.hpp"
@@ -25,12 +24,6 @@ namespace {
 constexpr std::uint64_t kFreeBytes = std::uint64_t{32} << 20;  // memory that any file may use
 constexpr std::uint64_t kBytesPerByte = 96;  // more for each byte of the file; the most that one needs is 76, a flat-shaded u8 index
 
-std::vector<std::byte> fetch(Document& document, const file::Buffer& entry, std::string_view where) {
-    const std::size_t limit = document.options.limits.max_file_bytes;
-    if (is_data_uri(*entry.uri)) return take(decode_data_uri(*entry.uri, limit), where);
-    return take(document.read_named(take(decode_file_uri(*entry.uri), where)), where);
-}
-
 void fetch_buffers(Document& document) {
     std::uint64_t total = 0;
     document.owned_buffers.reserve(document.file.buffers.size());
@@ -42,7 +35,7 @@ void fetch_buffers(Document& document) {
         std::span<const std::byte> bytes;
         try {
             if (entry.uri) {
-                bytes = document.owned_buffers.emplace_back(fetch(document, entry, where + ".uri"));
+                bytes = document.owned_buffers.emplace_back(document.read_uri(*entry.uri, where + ".uri"));
             } else if (i == 0 && document.glb.has_bin) {
                 bytes = document.glb.bin;
             } else {

@@ -267,6 +267,12 @@ void PrimitiveReader::read_targets(const file::Primitive& primitive, std::size_t
         if (const Accessor* a = deltas(kUv0Delta, !mesh.uv0.empty(), 8)) target.uv0 = read_vec2(*a, vertices);
         if (const Accessor* a = deltas(kUv1Delta, !mesh.uv1.empty(), 8)) target.uv1 = read_vec2(*a, vertices);
         if (const Accessor* a = deltas(kColorDelta, !mesh.colors.empty(), 16)) target.colors = read_vec4(*a, vertices, 0.0f);
+        mend_deltas(document_, where, "POSITION", target.positions);
+        mend_deltas(document_, where, "NORMAL", target.normals);
+        mend_deltas(document_, where, "TANGENT", target.tangents);
+        mend_deltas(document_, where, "TEXCOORD_0", target.uv0);
+        mend_deltas(document_, where, "TEXCOORD_1", target.uv1);
+        mend_deltas(document_, where, "COLOR_0", target.colors);
     }
 }
 
@@ -314,8 +320,7 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     if (uv0 != nullptr) mesh.uv0 = read_vec2(*uv0, vertices);
     if (uv1 != nullptr) mesh.uv1 = read_vec2(*uv1, vertices);
     if (color != nullptr) mesh.colors = read_vec4(*color, vertices, 1.0f);
-    warn_of_values(document_, list, mesh);
-    mend_zero_directions(document_, list, mesh);
+    mend_values(document_, list, mesh);
     read_targets(primitive, count, morph_weights, out);
     for (Vec4f& t : mesh.tangents) t.w = t.w < 0.0f ? -1.0f : 1.0f;
     return out;

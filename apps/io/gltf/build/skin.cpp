@@ -1,5 +1,8 @@
 #include "apps/io/gltf/build/skin.hpp"
 
+#include "sh/time_limit.hpp"
+#include "shading/model/numbers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +41,10 @@ Skin read_skin(Document& document, const std::vector<Accessor>& accessors, int i
         inverse_bind->read_floats(j, m);
         Affine& bind = out.inverse_bind[j];
         for (std::size_t c = 0; c < 4; ++c) bind.c[c] = {m[4 * c], m[4 * c + 1], m[4 * c + 2]};
-        if (!is_finite(bind) && !document.warnings_are_full()) document.warn(fmt::format("{}: matrix {} is not finite", where, j));
+        if (!is_finite(bind)) {
+            document.go_on_without({{ErrorCode::bad_input, fmt::format("{}: matrix {} is not finite", where, j)}}, "read as the identity");
+            bind = {};
+        }
         if ((m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) && !document.warnings_are_full())
             document.warn(fmt::format("{}: the last row of matrix {} is not 0 0 0 1, read as if it were", where, j));
     }
@@ -53,6 +59,8 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
     };
     std::vector<Set> sets;
     for (int set = 0;; ++set) {
+        check_time();
+        charge_work(8 * primitive.attributes.size());
         const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
         const Accessor* joint_accessor =
             reader.attribute(list, primitive.attributes, {joints.c_str(), 4, 4, kSmallUnsigned, {}, {}, {}}, std::nullopt);
@@ -76,7 +84,7 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
     document.geometry.take(std::uint64_t{vertices} * (sets.size() * sizeof(Influence) + sizeof(Vec3d)));
     read.source.sets = sets.size();
     read.source.influences.reserve(vertices * sets.size());
-    std::size_t negative = 0, without = 0, other_sum = 0, out_of_range = 0;
+    std::size_t negative = 0, without = 0, other_sum = 0, out_of_range = 0, not_finite = 0;
     for (std::size_t v = 0; v < vertices; ++v) {
         double sum = 0.0;
         for (const Set& set : sets) {
@@ -85,8 +93,10 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
             set.weights->read_floats(read.source_vertices[v], influence.weight);
             for (std::size_t k = 0; k < 4; ++k) {
                 const float weight = influence.weight[k];
-                if (weight < 0.0f) ++negative;
-                if (!(weight > 0.0f)) {
+                const bool finite = shading::finite(weight);
+                if (!finite) ++not_finite;
+                if (finite && weight < 0.0f) ++negative;
+                if (!finite || !(weight > 0.0f)) {
                     influence.weight[k] = 0.0f;
                     continue;
                 }
@@ -108,9 +118,14 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
         else if (!(sum > 1 - kTolerance && sum < 1 + kTolerance))
             ++other_sum;
     }
-    const auto warn = [&](std::size_t count, const char* what) {
-        if (count > 0) document.warn(fmt::format("{}.WEIGHTS_0: {} of {} vertices have {}", list, count, vertices, what));
+    const auto found = [&](std::size_t count, const char* what) {
+        return fmt::format("{}.WEIGHTS_0: {} of {} vertices have {}", list, count, vertices, what);
     };
+    const auto warn = [&](std::size_t count, const char* what) {
+        if (count > 0) document.warn(found(count, what));
+    };
+    if (not_finite > 0)
+        document.go_on_without({{ErrorCode::bad_input, found(not_finite, "weights that are not finite")}}, "these are left out");
     warn(negative, "negative weights, which are left out");
     warn(without, "no weights, moved by the skin's first joint");
     warn(other_sum, "weights whose sum is not 1, drawn divided by it");

@@ -56,33 +56,24 @@ std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene&
     return out;
 }
 
-/// A vertex is a stray if it lies this many times farther from the origin than the mesh's median vertex: no scale of the scene keeps both
-/// within float32. Triangles of strays are not drawn.
-constexpr double kTooFar = 0x1p40;
-
-void leave_out_strays(Document& document, Scene& scene) {
-    std::size_t count = 0;
-    for (Mesh& mesh : scene.meshes) {
-        std::vector<double> away;
-        for (const Vec3f& p : mesh.positions)
-            if (shading::finite(p)) away.push_back(length(to_double(p)));
-        if (away.size() < 8) continue;
-        const auto middle = away.begin() + static_cast<std::ptrdiff_t>(away.size() / 2);
-        std::nth_element(away.begin(), middle, away.end());
-        const double limit = kTooFar * *middle;
-        const auto strays = static_cast<std::size_t>(std::count_if(away.begin(), away.end(), [&](double a) { return a > limit; }));
-        if (!(limit > 0.0) || strays == 0 || strays > away.size() / 8) continue;
-        for (Vec3f& p : mesh.positions)
-            if (shading::finite(p) && length(to_double(p)) > limit) p.x = std::numeric_limits<float>::quiet_NaN();
-        count += strays;
-    }
-    if (count > 0)
-        document.warn(fmt::format(
-            "{} vertices lie more than 1e12 times farther from the origin than their mesh's median vertex: their triangles are not drawn",
-            count));
-}
-
 }  // namespace
+
+std::size_t leave_out_strays(Mesh& mesh) {
+    constexpr double kTooFar = 0x1p40;
+    constexpr std::size_t kShare = 3;  // one in so many vertices at most; a stray is a vertex of each triangle around it
+    if (!(largest(box_of(mesh)) > kLargest)) return 0;
+    std::vector<double> away;
+    for (const Vec3f& p : mesh.positions)
+        if (shading::finite(p)) away.push_back(length(to_double(p)));
+    const auto middle = away.begin() + static_cast<std::ptrdiff_t>(away.size() / 2);
+    std::nth_element(away.begin(), middle, away.end());
+    const double limit = kTooFar * *middle;
+    const auto strays = static_cast<std::size_t>(std::count_if(away.begin(), away.end(), [&](double a) { return a > limit; }));
+    if (away.size() <= kShare || !(limit > 0.0) || strays > away.size() / kShare) return 0;
+    for (Vec3f& p : mesh.positions)
+        if (shading::finite(p) && length(to_double(p)) > limit) p.x = std::numeric_limits<float>::quiet_NaN();
+    return strays;
+}
 
 Affine drawn(const Affine& world, const Placement& placement) {
     const auto turned = [&](Vec3d column) { return turned_upright(column, placement.up) * placement.scale; };
@@ -105,11 +96,15 @@ namespace {
 void choose_origin(Document& document, LoadedScene& loaded, std::span<const Affine> transforms) {
     Scene& scene = loaded.scene;
     std::vector<DoubleBox> boxes;
-    for (const Mesh& mesh : scene.meshes) boxes.push_back(box_of(mesh));
-    if (std::any_of(boxes.begin(), boxes.end(), [](const DoubleBox& box) { return largest(box) > kLargest; })) {
-        leave_out_strays(document, scene);
-        for (std::size_t m = 0; m < boxes.size(); ++m) boxes[m] = box_of(scene.meshes[m]);
+    std::size_t strays = 0;
+    for (Mesh& mesh : scene.meshes) {
+        strays += leave_out_strays(mesh);
+        boxes.push_back(box_of(mesh));
     }
+    if (strays > 0)
+        document.warn(fmt::format(
+            "{} vertices lie more than 1e12 times farther from the origin than their mesh's median vertex: their triangles are not drawn",
+            strays));
     DoubleBox world;
     for (std::size_t i = 0; i < transforms.size(); ++i) {
         const DoubleBox& box = boxes[static_cast<std::size_t>(scene.instances[i].mesh)];

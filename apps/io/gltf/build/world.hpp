@@ -18,6 +18,9 @@ void place_scene(Document& document, UpAxis up, NodeTree& tree, LoadedScene& loa
 [[nodiscard]] Affine drawn(const Affine& world, const Placement& placement);
 /// Transform of an instance of a mesh whose positions were multiplied by mesh_scales[mesh]; empty: none were.
 [[nodiscard]] Affine in_scaled_mesh(Affine m, std::span<const double> mesh_scales, int mesh);
+/// Makes the vertices not finite that lie more than 2^40 times farther from the origin than the mesh's median vertex, if they are few:
+/// no scale of the scene keeps both within float32. Their triangles are not drawn. Returns their number.
+std::size_t leave_out_strays(Mesh& mesh);
 /// Multiplies a mesh's positions.
 void scale_positions(Mesh& mesh, double factor);
 

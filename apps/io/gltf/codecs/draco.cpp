@@ -108,11 +108,16 @@ private:
     int add_values(int index, int id, const std::string& where) {
         file::Accessor accessor = document_.file.accessors[static_cast<std::size_t>(index)];
         accessor.count = mesh_.vertices();
-        DracoRequest request{static_cast<std::uint32_t>(id), accessor.component_type, accessor.components, 0};
+        DracoRequest request{static_cast<std::uint32_t>(id), accessor.component_type, accessor.components, 0, accessor.normalized};
         const auto size = size_of(static_cast<Component>(accessor.component_type)) * static_cast<std::size_t>(accessor.components);
         request.stride = (size + 3) / 4 * 4;  // vertices lie at multiples of 4
         document_.geometry.take(std::uint64_t{request.stride} * mesh_.vertices());
-        return append(accessor, index, take(mesh_.values(request), where), request.stride);
+        bool converted = false;
+        std::vector<std::byte> values = take(mesh_.values(request, document_.options.strict ? nullptr : &converted), where);
+        if (converted)
+            document_.warn(fmt::format("{}: the Draco stream has floats, which become integers of component type {} as accessors[{}] has",
+                                       where, accessor.component_type, index));
+        return append(accessor, index, std::move(values), request.stride);
     }
 
     Document& document_;

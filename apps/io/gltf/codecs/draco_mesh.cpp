@@ -218,7 +218,7 @@ std::vector<std::byte> DracoMesh::indices() const {
     return out;
 }
 
-Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest& request) const {
+Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest& request, bool* converted) const {
     const auto wrong = [&](const std::string& what) {
         return fail(ErrorCode::bad_input, fmt::format("Draco: attribute {} {}", request.unique_id, what));
     };
@@ -232,9 +232,23 @@ Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest& request) co
     bool stored = false;
     const auto integers = [&]<class T>(T) {
         const auto count = static_cast<std::int8_t>(request.components);
-        return !floats.is_transformed() && draco::IsDataTypeIntegral(attribute->data_type()) &&
-               store_all<T>(*attribute, vertices(), request, out,
-                            [&](draco::AttributeValueIndex index, T* to) { return attribute->ConvertValue(index, count, to); });
+        if (!floats.is_transformed() && draco::IsDataTypeIntegral(attribute->data_type()))
+            return store_all<T>(*attribute, vertices(), request, out,
+                                [&](draco::AttributeValueIndex index, T* to) { return attribute->ConvertValue(index, count, to); });
+        if (converted == nullptr) return false;
+        *converted = true;
+        constexpr auto kLow = static_cast<double>(std::numeric_limits<T>::lowest()),
+                       kHigh = static_cast<double>(std::numeric_limits<T>::max());
+        return store_all<T>(*attribute, vertices(), request, out, [&](draco::AttributeValueIndex index, T* to) {
+            float values[16] = {};
+            if (!floats.read(index, values)) return false;
+            for (std::size_t c = 0; c < 16; ++c) {
+                const double value = double{values[c]} * (request.normalized ? kHigh : 1.0);
+                to[c] =
+                    value > kLow ? static_cast<T>(std::min(value + (value < 0.0 ? -0.5 : 0.5), kHigh)) : std::numeric_limits<T>::lowest();
+            }
+            return true;
+        });
     };
     switch (request.component_type) {
         case 5120:
@@ -274,7 +288,7 @@ std::size_t DracoMesh::vertices() const { return 0; }
 std::size_t DracoMesh::triangles() const { return 0; }
 std::size_t DracoMesh::attributes() const { return 0; }
 std::vector<std::byte> DracoMesh::indices() const { return {}; }
-Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest&) const { return std::vector<std::byte>(); }
+Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest&, bool*) const { return std::vector<std::byte>(); }
 
 #endif
 

@@ -20,6 +20,7 @@ struct DracoRequest {
     int component_type = 0;       ///< glTF's number
     int components = 0;
     std::size_t stride = 0;  ///< bytes between two elements of the result
+    bool normalized = false;
 };
 
 class DracoMesh {
@@ -35,8 +36,9 @@ public:
     [[nodiscard]] std::size_t triangles() const;
     [[nodiscard]] std::size_t attributes() const;
     [[nodiscard]] std::vector<std::byte> indices() const;  ///< little-endian, 4 bytes each
-    /// Values of all vertices, little-endian. Fails where the mesh lacks the attribute, or its type does not fit.
-    [[nodiscard]] Result<std::vector<std::byte>> values(const DracoRequest& request) const;
+    /// Values of all vertices, little-endian. Fails where the mesh lacks the attribute, or its type does not fit. converted: if not null,
+    /// floats become the integers that are asked for, and it becomes true for that.
+    [[nodiscard]] Result<std::vector<std::byte>> values(const DracoRequest& request, bool* converted = nullptr) const;
 
 private:
     struct Data;

@@ -1,5 +1,6 @@
 #include "apps/io/gltf/file/document.hpp"
 
+#include "apps/io/files/uri.hpp"
 #include "apps/io/gltf/file/indices.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +17,14 @@ void Document::warn(std::string what) {
         warnings.push_back(std::move(what));
     else
         ++warnings_left_out;
+}
+
+std::vector<std::byte> Document::read_uri(std::string_view uri, const std::string& where) {
+    if (!is_data_uri(uri)) return take(read_named(take(decode_file_uri(uri, !options.strict), where)), where);
+    bool loose = false;
+    std::vector<std::byte> bytes = take(decode_data_uri(uri, options.limits.max_file_bytes, options.strict ? nullptr : &loose), where);
+    if (loose) warn(fmt::format("{}: base64 with white space or percent sequences in it, which are read as browsers do", where));
+    return bytes;
 }
 
 Result<std::vector<std::byte>> Document::read_named(std::string_view name) {

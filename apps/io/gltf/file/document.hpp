@@ -47,6 +47,8 @@ struct Document {
     Document(const LoadOptions& load_options, const std::string& base_dir)
         : options(load_options), folder(base_dir, load_options.allow_external) {}
 
+    /// The bytes of a URI: of a data: URI, or of the file that it names. Throws LoadFailure.
+    [[nodiscard]] std::vector<std::byte> read_uri(std::string_view uri, const std::string& where);
     /// The file of a name that the model gives, at most max_file_bytes; unless strict, of one like it (ModelFolder::read_like), with a
     /// warning.
     [[nodiscard]] Result<std::vector<std::byte>> read_named(std::string_view name);

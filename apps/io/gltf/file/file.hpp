@@ -238,6 +238,7 @@ struct Animation {
 
 struct File {
     std::string_view version, min_version, generator;
+    bool has_dictionaries = false;  ///< lists are objects, as in glTF 1.0
     std::vector<std::string_view> extensions_used, extensions_required;
     std::vector<Buffer> buffers;
     std::vector<BufferView> buffer_views;

@@ -21,7 +21,7 @@ public:
     Notes& notes;
     Owner owner;                                               ///< element that is being read
     file::TexturePlace* place = nullptr;                       ///< the texture place that is being read
-    std::size_t component = 0;                                 ///< of the numbers of a material's property that is being read
+    std::size_t component = 0;                                 ///< number of the value in its object or array
     std::vector<double> matrix, translation, rotation, scale;  ///< values of the node that is being read
     /// Places in the text, of the element that is being read.
     std::size_t matrix_offset = 0, rotation_offset = 0, spot_offset = 0;

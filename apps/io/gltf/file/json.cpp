@@ -7,6 +7,7 @@
 #include "apps/io/gltf/file/versions.hpp"
 #include "apps/io/gltf/text/json_place.hpp"
 #include "sh/time_limit.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -82,6 +83,19 @@ public:
         filler_.notes.twins.push_back({first, next, again});
     }
 
+    void on_loose(const JsonFault& fault) override {
+        if (strict_) JsonVisitor::on_loose(fault);
+        if (loose_++ == 0) first_loose_ = fault;
+    }
+
+    /// Called after the scan.
+    void warn_of_loose() {
+        if (loose_ == 0) return;
+        filler_.owner = {};
+        const std::string more = loose_ > 1 ? fmt::format(" (and {} more such places)", loose_ - 1) : "";
+        filler_.warn(first_loose_.offset, first_loose_.what + more, "which is no JSON, read as it is meant");
+    }
+
     /// Called after the scan, when the lengths of all arrays are known. Afterwards no member of the file has an index that is out of range,
     /// whether its fault was refused, noted or ignored.
     void check_indices() {
@@ -143,13 +157,20 @@ private:
             return &gltf_schema();
         }
         Level& top = levels_.back();
-        ++top.count;
+        filler_.component = top.count++;
         const SchemaNode* node = top.next;
         if (node == nullptr) return nullptr;
         const bool element = node->rule == Rule::object && node->target != Target::none;
         if (element) {
             filler_.owner = {node->target, static_cast<std::uint32_t>(top.count - 1)};
             owner_depth_ = levels_.size();
+        }
+        if (value.type == JsonType::number && !shading::finite(value.number)) {  // has been warned of; it has its default
+            const bool in_list = top.value.type == JsonType::array && top.node != nullptr && top.node->length == 0;
+            JsonValue zero = value;
+            zero.number = 0;
+            if (in_list && node->rule == Rule::number && node->put != nullptr) call(node->put, zero);
+            return nullptr;
         }
         // Attributes have free names. Those that are not read may be anything.
         const bool good = check(*node, value, node->mild || (node->reads != nullptr && !node->reads(filler_.key)));
@@ -242,6 +263,7 @@ private:
                 break;
             case Rule::array:
                 good = value.type == JsonType::array;
+                file_.has_dictionaries |= value.type == JsonType::object && levels_.size() == 1;
                 break;
             case Rule::string:
                 good = value.type == JsonType::string;
@@ -279,6 +301,8 @@ private:
     bool strict_;
     std::vector<Level> levels_;
     std::vector<Index> indices_;
+    JsonFault first_loose_;
+    std::size_t loose_ = 0;
     std::vector<std::pair<std::string_view, std::size_t>> extensions_;  // names that are used, with the offset of the first use
     std::size_t owner_depth_ = 0;                                       // levels around the element that is being read
 };
@@ -305,6 +329,7 @@ file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, B
         GltfVisitor visitor(file, notes, memory, strict);
         scan_json(text, limits, visitor);
         if (!notes.twins.empty()) return file;
+        visitor.warn_of_loose();
         check_versions(file, strict);
         visitor.check_indices();
         visitor.check_extensions();

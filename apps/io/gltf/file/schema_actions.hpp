@@ -125,11 +125,11 @@ void begin_place(F f, V) {
     f.place = &f.file.materials.back().places[Slot];
 }
 
-/// A number of the material that is being read, or the next one of a few.
+/// A number of the material that is being read, or one of a few.
 template <std::size_t Row>
 void put_material_number(F f, V value) {
     constexpr auto kCount = static_cast<std::size_t>(shading::kMaterialNumbers[Row].count);
-    const std::size_t at = kCount == 1 ? 0 : f.component++;
+    const std::size_t at = kCount == 1 ? 0 : f.component;
     if (at < kCount) f.file.materials.back().numbers[shading::kFirstFloats[Row] + at] = value.number;
 }
 
@@ -171,6 +171,15 @@ void put_texture_transform(F f, V value) {
 template <auto Member>
 void put_own_lobe(F f, V value) {
     (*f.file.materials.back().own_lobe).parameters.*Member = static_cast<float>(value.number);
+}
+
+inline void put_version(F f, V value) {
+    if (value.type == JsonType::string)
+        f.file.version = f.keep(value);
+    else if (value.number >= 1 && value.number < 2)
+        f.file.version = "1.0";  // some of these have a number; refused
+    else
+        fault(value, fmt::format("expected a string, found {}", name_of(value.type)));
 }
 
 inline void put_generator(F f, V value) {

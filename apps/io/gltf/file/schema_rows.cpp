@@ -55,7 +55,7 @@ constexpr Range kCone{.low = 0, .high = kHalfPi, .low_open = true};
 
 constexpr SchemaRow kRows[] = {
     {"asset!", object},
-    {"asset/version!", string, put_file<&File::version>},
+    {"asset/version!", any, put_version},
     {"asset/minVersion", string, put_file<&File::min_version>},
     {"asset/generator", any, put_generator},
     {"extensionsUsed/#", string, put_file<&File::extensions_used>},
@@ -284,8 +284,7 @@ void add_number(std::vector<SchemaRow>& rows, std::deque<std::string>& paths) {
     if (of.gltf.empty()) return;
     std::string path = "materials/#/" + std::string(of.gltf);
     if (of.count > 1) {
-        rows.push_back(
-            {paths.emplace_back(path), array, [](F f, V) { f.component = 0; }, Target::none, nullptr, static_cast<std::size_t>(of.count)});
+        rows.push_back({paths.emplace_back(path), array, nullptr, Target::none, nullptr, static_cast<std::size_t>(of.count)});
         path += "/#";
     }
     rows.push_back(restricted({paths.emplace_back(path), number, put_material_number<Row>}, range_of(of)));

@@ -1,5 +1,7 @@
 #include "apps/io/gltf/file/used.hpp"
 
+#include "sh/time_limit.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -66,6 +68,7 @@ private:
         if (animations_.morphs_node(number)) {
             std::size_t most = 0;
             for (const file::Primitive& primitive : mesh.primitives) most = std::max(most, primitive.targets.size());
+            charge_work(mesh.primitives.size() + most);
             follow_targets(index, std::vector<double>(most, 1.0));
         } else if (node.weights.count > 0) {
             follow_targets(index, std::span(file_.weights).subspan(node.weights.first, node.weights.count));
@@ -106,6 +109,7 @@ private:
 
     /// Morph targets with a weight other than 0.
     void follow_targets(std::size_t mesh, std::span<const double> weights) {
+        check_time();
         std::vector<bool>& seen = targets_seen_[mesh];
         if (seen.size() < weights.size()) seen.resize(weights.size(), false);
         for (std::size_t t = 0; t < weights.size(); ++t) {

@@ -3,6 +3,7 @@
 
 #include "apps/io/files/load_failure.hpp"
 #include "apps/io/files/text.hpp"
+#include "apps/io/gltf/text/glb_container.hpp"
 #include "sh/time_limit.hpp"
 #include "shading/material_properties.hpp"
 
@@ -113,6 +114,8 @@ bool is_supported(std::string_view extension) {
 }
 
 void check_versions(const file::File& file, bool strict) {
+    if (file.version == "1" || file.version.starts_with("1.") || (file.version.empty() && file.has_dictionaries))
+        refuse("", kIsFirstVersion);
     if (file.version.empty() && !strict) return;  // warned of
     const auto version = parse_version(file.version, strict);
     if (!version) refuse("asset.version", fmt::format("expected \"2.0\", found \"{}\"", printable(file.version, 20)));

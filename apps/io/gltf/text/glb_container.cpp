@@ -47,7 +47,7 @@ Result<GlbParts> split_glb(std::span<const std::byte> file, bool strict) {
     if (!is_glb(file)) return refuse("expected the bytes \"glTF\" at the start");
     if (file.size() < kHeaderBytes) return refuse(fmt::format("header: expected 12 bytes, found {}", file.size()));
     if (const std::uint32_t version = read_u32(file, 4); version != 2)
-        return refuse(fmt::format("header: expected container version 2, found {}", version));
+        return refuse(version == 1 ? std::string(kIsFirstVersion) : fmt::format("header: expected container version 2, found {}", version));
     std::size_t length = read_u32(file, 8);
     GlbParts parts;
     constexpr std::size_t kMostWarnings = 100;

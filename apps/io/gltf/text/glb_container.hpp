@@ -17,6 +17,10 @@ struct GlbParts {
     std::vector<std::string> warnings;
 };
 
+/// Said of files of the format's first version.
+inline constexpr const char* kIsFirstVersion =
+    "is glTF 1.0, expected 2.0; convert it with gltf-pipeline: `npx gltf-pipeline -i OLD.gltf -o NEW.glb`";
+
 [[nodiscard]] bool is_glb(std::span<const std::byte> file);
 
 /// Checks every length before use. Chunks of unknown types are skipped. Unless `strict`, wrong lengths and a wrong order are warned of, and

@@ -26,6 +26,7 @@ public:
     }
     void on_end(std::size_t) override { levels_.pop_back(); }
     void on_value(const JsonValue& value, std::size_t) override { enter(value.offset); }
+    void on_loose(const JsonFault& fault) override { reach(fault.offset); }
 
     /// One path for each offset: those behind the end of the scan have the path of the end.
     [[nodiscard]] std::vector<std::string> paths() const {

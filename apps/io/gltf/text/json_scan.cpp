@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <charconv>
 #include <deque>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -43,14 +45,17 @@ private:
     [[noreturn]] void refuse(std::size_t offset, std::string what, ErrorCode code = ErrorCode::bad_input) const {
         throw JsonFault{code, offset, std::move(what)};
     }
-    [[noreturn]] void unexpected(const char* expected) const {
-        if (at_ >= text_.size()) refuse(text_.size(), fmt::format("expected {}, found the end of the text", expected));
+    [[nodiscard]] JsonFault other_than(const char* expected) const {
+        if (at_ >= text_.size())
+            return {ErrorCode::bad_input, text_.size(), fmt::format("expected {}, found the end of the text", expected)};
         std::size_t length = 1;
         while (length < 12 && at_ + length < text_.size() && static_cast<unsigned char>(text_[at_ + length] | 0x20) >= 'a' &&
                (text_[at_ + length] | 0x20) <= 'z')
             ++length;
-        refuse(at_, fmt::format("expected {}, found \"{}\"", expected, printable(text_.substr(at_, length))));
+        return {ErrorCode::bad_input, at_, fmt::format("expected {}, found \"{}\"", expected, printable(text_.substr(at_, length)))};
     }
+    [[noreturn]] void unexpected(const char* expected) const { throw other_than(expected); }
+    void loose(std::size_t offset, const char* what) { visitor_.on_loose({ErrorCode::bad_input, offset, what}); }
     void count_token() {
         if (++tokens_ > limits_.max_tokens)
             refuse(at_, fmt::format("more than {} JSON tokens, which is max_json_tokens", limits_.max_tokens), ErrorCode::limit);
@@ -58,7 +63,26 @@ private:
     }
     [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
     void skip_space() {
-        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t')) ++at_;
+        do
+            while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t')) ++at_;
+        while (peek() == '/' && skip_comment());
+    }
+    bool skip_comment() {
+        const bool line = text_.substr(at_, 2) == "//";
+        const std::size_t end = text_.find(line ? "\n" : "*/", std::min(at_ + 2, text_.size()));
+        if (!line && (text_.substr(at_, 2) != "/*" || end == text_.npos)) return false;
+        loose(at_, "a comment, which JSON has not");
+        at_ = line ? std::min(end, text_.size()) : end + 2;
+        check_();
+        return true;
+    }
+    /// Commas in front of which, or behind which, there is no value.
+    void skip_commas(const char* expected) {
+        visitor_.on_loose(other_than(expected));
+        for (; peek() == ','; skip_space()) {
+            check_();
+            ++at_;
+        }
     }
 
     // Reads one member or element of the innermost open object or array, or its end.
@@ -74,6 +98,10 @@ private:
             if (peek() != ',') unexpected(top.object ? "',' or '}'" : "',' or ']'");
             ++at_;
             skip_space();
+        }
+        if (peek() == ',' || (!top.empty && peek() == closing)) {
+            skip_commas(top.object ? "a key in double quotes" : "a JSON value");
+            if (peek() == closing) return close();
         }
         top.empty = false;
         if (top.object) {
@@ -147,14 +175,16 @@ private:
         } else if (text_.substr(at_, 4) == "null") {
             at_ += 4;
         } else {
-            unexpected("a JSON value");
+            loose_number(v, other_than("a JSON value"));
         }
         visitor_.on_value(v, at_);
     }
 
-    void digits() {
-        if (!(peek() >= '0' && peek() <= '9')) unexpected("a digit");
+    /// Passes digits; false: there are none.
+    bool digits() {
+        const std::size_t begin = at_;
         while (peek() >= '0' && peek() <= '9') ++at_;
+        return at_ > begin;
     }
 
     /// True if the magnitude of a number that double cannot hold is below 1: it rounds to zero, which is no fault.
@@ -172,33 +202,64 @@ private:
         return place + (negative ? -shift : shift) < 0;
     }
 
-    void number(JsonValue& v) {
-        const std::size_t begin = at_;
-        v.type = JsonType::integer;
+    /// Passes a number of RFC 8259. Null: it is one; otherwise what is expected.
+    const char* pass_number(JsonType& type) {
+        type = JsonType::integer;
         if (peek() == '-') ++at_;
         const bool zero = peek() == '0';
         if (zero)
             ++at_;
-        else
-            digits();
-        if (zero && peek() >= '0' && peek() <= '9') unexpected("a number without leading zeros");
+        else if (!digits())
+            return "a digit";
+        if (zero && peek() >= '0' && peek() <= '9') return "a number without leading zeros";
         if (peek() == '.') {
-            v.type = JsonType::number;
+            type = JsonType::number;
             ++at_;
-            digits();
+            if (!digits()) return "a digit";
         }
         if (peek() == 'e' || peek() == 'E') {
-            v.type = JsonType::number;
+            type = JsonType::number;
             ++at_;
             if (peek() == '+' || peek() == '-') ++at_;
-            digits();
+            if (!digits()) return "a digit";
         }
-        const auto parsed = std::from_chars(text_.data() + begin, text_.data() + at_, v.number);
+        return nullptr;
+    }
+
+    /// The value of a text that begins with a number; returns its end.
+    const char* convert(std::string_view text, double& value) const {
+        const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
         if (parsed.ec == std::errc::result_out_of_range) {
-            if (!is_tiny(text_.substr(begin, at_ - begin)))
-                refuse(begin, fmt::format("the number {} is outside the range of double", printable(text_.substr(begin, at_ - begin), 40)));
-            v.number = 0;
+            if (!is_tiny(text))
+                refuse(static_cast<std::size_t>(text.data() - text_.data()),
+                       fmt::format("the number {} is outside the range of double", printable(text, 40)));
+            value = 0;
         }
+        return parsed.ptr;
+    }
+
+    /// A number that RFC 8259 forbids, from at_ on, or `fault`. std::from_chars knows nan, inf, infinity and nan(..), too.
+    void loose_number(JsonValue& v, const JsonFault& fault) {
+        const std::size_t end = std::min(text_.find_first_of(" \t\r\n,:[]{}/\"", at_), text_.size());
+        const std::string_view whole = text_.substr(at_, end - at_), word = whole.substr(whole.starts_with('+') ? 1 : 0);
+        if (word.empty() || (whole.size() > word.size() && word[0] == '-')) throw fault;
+        v.type = JsonType::number;
+        if (const std::size_t mark = word.find(".#"); mark != word.npos && mark + 2 < word.size() && mark <= 2)  // -1.#INF00, 1.#QNAN
+            v.number = std::numeric_limits<double>::quiet_NaN();
+        else if (convert(word, v.number) != word.data() + word.size())
+            throw fault;
+        visitor_.on_loose(fault);
+        at_ = end;
+    }
+
+    void number(JsonValue& v) {
+        const std::size_t begin = at_;
+        if (const char* const expected = pass_number(v.type)) {
+            const JsonFault fault = other_than(expected);
+            at_ = begin;
+            return loose_number(v, fault);
+        }
+        convert(text_.substr(begin, at_ - begin), v.number);
         constexpr std::int64_t kMaxExact = std::int64_t{1} << 53;
         std::int64_t whole = 0;
         if (v.type == JsonType::integer)
@@ -206,13 +267,13 @@ private:
                       whole >= -kMaxExact;
     }
 
-    unsigned hex4() {
+    /// Four hexadecimal digits at `at`; nothing if they are not there.
+    [[nodiscard]] std::optional<unsigned> hex4(std::size_t at) const {
         unsigned code = 0;
-        const auto* first = text_.data() + std::min(at_, text_.size());
-        const auto* last = text_.data() + std::min(at_ + 4, text_.size());
+        const auto* first = text_.data() + std::min(at, text_.size());
+        const auto* last = text_.data() + std::min(at + 4, text_.size());
         const auto parsed = std::from_chars(first, last, code, 16);
-        if (parsed.ptr != first + 4 || *first == '-') unexpected("four hexadecimal digits after \\u");
-        at_ += 4;
+        if (parsed.ptr != first + 4 || *first == '-') return std::nullopt;
         return code;
     }
 
@@ -224,17 +285,26 @@ private:
             ++at_;
             return;
         }
-        if (peek() != 'u') unexpected("an escape sequence");
+        const std::optional<unsigned> found = peek() == 'u' ? hex4(at_ + 1) : std::nullopt;
+        if (!found) {  // a path of Windows, say
+            at_ += peek() == 'u' ? 1 : 0;
+            const JsonFault fault =
+                other_than(at_ > 0 && text_[at_ - 1] == 'u' ? "four hexadecimal digits after \\u" : "an escape sequence");
+            if (at_ >= text_.size()) throw fault;
+            visitor_.on_loose(fault);
+            out += text_[at_ - 1] == 'u' ? "\\u" : "\\";
+            return;
+        }
         const std::size_t begin = at_ - 1;
-        ++at_;
-        unsigned code = hex4();
-        if (code >= 0xD800 && code <= 0xDBFF && text_.substr(at_, 2) == "\\u") {
-            at_ += 2;
-            const unsigned low = hex4();
-            if (low < 0xDC00 || low > 0xDFFF) refuse(begin, "half of a surrogate pair");
-            code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+        at_ += 5;
+        unsigned code = *found;
+        const std::optional<unsigned> low = text_.substr(at_, 2) == "\\u" ? hex4(at_ + 2) : std::nullopt;
+        if (code >= 0xD800 && code <= 0xDBFF && low >= 0xDC00u && low <= 0xDFFFu) {
+            at_ += 6;
+            code = 0x10000 + ((code - 0xD800) << 10) + (*low - 0xDC00);
         } else if (code >= 0xD800 && code <= 0xDFFF) {
-            refuse(begin, "half of a surrogate pair");
+            loose(begin, "half of a surrogate pair");
+            code = 0xFFFD;  // the replacement character
         }
         if (code < 0x80) {
             out += static_cast<char>(code);
@@ -254,7 +324,7 @@ private:
         scratch_.assign(text_, begin, at_ - begin);
         while (peek() != '"') {
             if (at_ >= text_.size()) refuse(begin - 1, "the string has no closing quote");
-            if (static_cast<unsigned char>(text_[at_]) < 0x20) refuse(at_, "a control character in a string must be escaped");
+            if (static_cast<unsigned char>(text_[at_]) < 0x20) loose(at_, "a control character in a string must be escaped");
             if (text_[at_] == '\\') {
                 ++at_;
                 escape(scratch_);

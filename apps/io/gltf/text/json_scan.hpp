@@ -1,5 +1,6 @@
 // A strict pass over JSON text (RFC 8259), without recursion and without building a tree: a visitor gets the values. It stops at the first
-// fault with its offset: nesting and token limits, UTF-8, duplicate keys, literals such as NaN, numbers outside double.
+// fault with its offset: nesting and token limits, UTF-8, duplicate keys, literals such as NaN, numbers outside double. A visitor may pass
+// over those that other programs read.
 #pragma once
 
 #include "halflit/error.hpp"
@@ -43,6 +44,10 @@ public:
     /// A member whose key comes again in its object: `first` is the key's offset, `next` that of the member behind it. Called where the
     /// object ends. A fault, unless it is overridden.
     virtual void on_twin(std::string_view key, std::size_t first, std::size_t next, std::size_t again);
+    /// A place that RFC 8259 forbids and that can be read: NaN, Infinity and what C prints for them (a number that is NaN or infinite), a
+    /// number such as +1, .5, 1. or 01, a comma too many, a comment, a control character or half of a surrogate pair in a string, a
+    /// backslash that is no escape sequence. Throws the fault, unless it is overridden: then it is read.
+    virtual void on_loose(const JsonFault& fault) { throw fault; }
 };
 
 struct JsonScanLimits {
