@@ -97,7 +97,7 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
 
 namespace {
 
-LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) try {
     check_threads(options);
     const WorkLimit work(allowed_work(options.limits, bytes.size()));
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
@@ -159,6 +159,10 @@ LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_di
     loaded.info = std::move(document->info);
     loaded.info.files = files_of(*document);
     return loaded;
+} catch (LoadFailure& failure) {
+    if (const std::size_t missing = missing_bytes(bytes); missing > 0 && failure.error.code == ErrorCode::bad_input)
+        failure.error.message = fmt::format("is cut off, the last {} bytes are missing: {}", missing, failure.error.message);
+    throw;
 }
 
 }  // namespace

@@ -42,6 +42,12 @@ bool ends_with_chunk(std::span<const std::byte> file, std::size_t length) {
 
 bool is_glb(std::span<const std::byte> file) { return file.size() >= 4 && read_u32(file, 0) == kMagic; }
 
+std::size_t missing_bytes(std::span<const std::byte> file) {
+    if (!is_glb(file) || file.size() < kHeaderBytes) return 0;
+    const std::size_t length = read_u32(file, 8);
+    return length > file.size() ? length - file.size() : 0;
+}
+
 Result<GlbParts> split_glb(std::span<const std::byte> file, bool strict) {
     const auto refuse = [](std::string what) { return fail(ErrorCode::bad_input, fmt::format("GLB: {}", what)); };
     if (!is_glb(file)) return refuse("expected the bytes \"glTF\" at the start");

@@ -22,6 +22,8 @@ inline constexpr const char* kIsFirstVersion =
     "is glTF 1.0, expected 2.0; convert it with gltf-pipeline: `npx gltf-pipeline -i OLD.gltf -o NEW.glb`";
 
 [[nodiscard]] bool is_glb(std::span<const std::byte> file);
+/// Bytes that the header of a GLB file promises and the file lacks; 0 for other files.
+[[nodiscard]] std::size_t missing_bytes(std::span<const std::byte> file);
 
 /// Checks every length before use. Chunks of unknown types are skipped. Unless `strict`, wrong lengths and a wrong order are warned of, and
 /// what is there is read. The message has no file prefix.
