@@ -87,6 +87,12 @@ TEST_CASE("tolerance: what viewers draw is drawn with a warning, and refused by 
          "the key \"meshes\" is there twice", [](const LoadedScene& loaded) { CHECK(loaded.info.meshes == 1); }},
         {"null", triangle_file("{\"mesh\":0}", R"({"mesh":0,"skin":null,"translation":null,"name":null})"),
          "expected an integer, found null, read as if it were not there", none},
+        {"sampler that is null",
+         triangle_file("\"nodes\":[{", R"("animations":[{"samplers":[{"input":0,"output":0}],"channels":[{"sampler":null,)"
+                                       R"("target":{"node":0,"path":"translation"}}]}],"nodes":[{)"),
+         "samplers[-1] is used, but there are 1; the animation is left out", none},
+        {"comment in front", glb("// by hand\n" + TriangleFile().json(), TriangleFile().bin), "a comment, which JSON has not", none},
+        {"byte order mark", glb("\xEF\xBB\xBF" + TriangleFile().json(), TriangleFile().bin), "byte order mark", none},
         {"version", triangle_file("\"2.0\"", "\"2\""), nullptr, none},
         {"no asset", triangle_file("\"asset\":{\"version\":\"2.0\"},", ""), "expected the key \"asset\"", none},
         {"buffer longer than its data", triangle_file("\"byteLength\":36}],\"bufferViews\"", "\"byteLength\":39}],\"bufferViews\""),

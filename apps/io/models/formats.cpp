@@ -80,6 +80,13 @@ int like_stl(const FileBegin& begin) {
     return says_solid || looks_like_binary_stl(begin.bytes) ? 1 : 0;
 }
 
+/// JSON begins with a bracket, some behind a comment.
+int like_gltf(const FileBegin& begin) {
+    const bool comment = begin.word().starts_with("//") || begin.word().starts_with("/*");
+    const auto has_bracket = [](std::string_view line) { return line.find('{') != line.npos; };
+    return certain_if(begin.word().starts_with('{') || (comment && std::any_of(begin.lines.begin(), begin.lines.end(), has_bracket)));
+}
+
 bool is_zip(std::string_view text) { return text.starts_with("PK\3\4") || text.starts_with("PK\5\6"); }
 
 bool is_ply(std::string_view text) {
@@ -99,8 +106,7 @@ constexpr FormatRow kFormats[] = {
      by_bytes<read_three_mf>, nullptr},
     {ModelFormat::ply, "PLY", ".ply", [](const FileBegin& begin) { return certain_if(is_ply(as_text(begin.bytes))); }, by_bytes<read_ply>,
      by_bytes<files_of_ply>},
-    {ModelFormat::gltf, "glTF", ".gltf", [](const FileBegin& begin) { return certain_if(begin.word().starts_with('{')); },
-     by_bytes<read_gltf>, by_bytes<files_of_gltf>},
+    {ModelFormat::gltf, "glTF", ".gltf", like_gltf, by_bytes<read_gltf>, by_bytes<files_of_gltf>},
     {ModelFormat::stl, "STL", ".stl", like_stl, by_bytes<read_stl>, nullptr},
     {ModelFormat::obj, "OBJ", ".obj", like_obj, read_obj, files_of_obj},
     {ModelFormat::off, "OFF", ".off", [](const FileBegin& begin) { return certain_if(is_off_header(begin.word())); }, by_bytes<read_off>,

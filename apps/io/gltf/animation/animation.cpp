@@ -151,7 +151,7 @@ public:
     std::optional<Track> read(int animation, std::size_t channel_index, const Slot& slot) {
         const file::Animation& source = document_.file.animations[static_cast<std::size_t>(animation)];
         const file::AnimationChannel& channel = source.channels[channel_index];
-        const file::AnimationSampler& sampler = source.samplers[static_cast<std::size_t>(channel.sampler)];
+        const file::AnimationSampler& sampler = element(source.samplers, channel.sampler, "samplers");  // null is none
         const std::string where = fmt::format("animations[{}].samplers[{}]", animation, channel.sampler);
         Track track;
         track.interpolation = sampler.interpolation;

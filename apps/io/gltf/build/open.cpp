@@ -167,7 +167,7 @@ std::unique_ptr<Document> open_document(std::span<const std::byte> bytes, const 
     for (std::string& warning : document->glb.warnings) document->warn(std::move(warning));
 
     const std::string_view text(reinterpret_cast<const char*>(document->glb.json.data()), document->glb.json.size());
-    document->text = trimmed(text, document->warnings);
+    document->text = trimmed(text, document->warnings, options.strict);
     if (!options.strict) mend_bytes(*document);
     const auto read = [&] {
         document->file = read_gltf_json(document->text, scan_limits(options),

@@ -165,11 +165,12 @@ private:
             filler_.owner = {node->target, static_cast<std::uint32_t>(top.count - 1)};
             owner_depth_ = levels_.size();
         }
-        if (value.type == JsonType::number && !shading::finite(value.number)) {  // has been warned of; it has its default
+        if (node->rule == Rule::number && value.type == JsonType::number && !shading::finite(value.number)) {
+            // It has been warned of, and has its default.
             const bool in_list = top.value.type == JsonType::array && top.node != nullptr && top.node->length == 0;
             JsonValue zero = value;
             zero.number = 0;
-            if (in_list && node->rule == Rule::number && node->put != nullptr) call(node->put, zero);
+            if (in_list && node->put != nullptr) call(node->put, zero);
             return nullptr;
         }
         // Attributes have free names. Those that are not read may be anything.
@@ -314,10 +315,12 @@ LoadFailure failure_at(std::string_view text, const JsonScanLimits& limits, std:
     return {{code, fmt::format("{}{}{}: {}", path, path.empty() ? "" : ": ", named_place(text, offset), what)}};
 }
 
-std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings) {
+std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings, bool strict) {
     if (text.substr(0, 3) == "\xEF\xBB\xBF") {
+        constexpr const char* kMark = "the JSON text begins with a byte order mark, which glTF forbids";
+        if (strict) refuse("", kMark);
         text.remove_prefix(3);
-        warnings.push_back("the JSON text begins with a byte order mark, which glTF forbids");
+        warnings.push_back(kMark);
     }
     while (!text.empty() && text.back() == '\0') text.remove_suffix(1);  // chunk padding of old exporters
     return text;

@@ -18,8 +18,8 @@ namespace halflit::io::detail {
 /// Throws LoadFailure for other faults, with path, line and column. Takes the memory of all objects from `memory`.
 file::File read_gltf_json(std::string_view text, const JsonScanLimits& limits, Budget memory, Notes& notes, bool strict);
 
-/// The JSON text without what glTF forbids before and after it: a byte order mark, which is warned of, and zeros.
-std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings);
+/// The JSON text without what glTF forbids before and after it: a byte order mark, which is warned of, or if strict refused, and zeros.
+std::string_view trimmed(std::string_view text, std::vector<std::string>& warnings, bool strict);
 
 /// A failure with path, line and column of `offset`.
 [[nodiscard]] LoadFailure failure_at(std::string_view text, const JsonScanLimits& limits, std::size_t offset, std::string_view what,

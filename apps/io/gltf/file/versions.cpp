@@ -115,7 +115,7 @@ bool is_supported(std::string_view extension) {
 
 void check_versions(const file::File& file, bool strict) {
     if (file.version == "1" || file.version.starts_with("1.") || (file.version.empty() && file.has_dictionaries))
-        refuse("", kIsFirstVersion);
+        refuse("asset.version", kIsFirstVersion);
     if (file.version.empty() && !strict) return;  // warned of
     const auto version = parse_version(file.version, strict);
     if (!version) refuse("asset.version", fmt::format("expected \"2.0\", found \"{}\"", printable(file.version, 20)));
