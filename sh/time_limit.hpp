@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kSteps = 65536, kUnitsAStep = 8;
+    static constexpr std::uint32_t kSteps = 65536, kUnitsAStep = 12;
     std::uint32_t steps_ = 0;
 };
 

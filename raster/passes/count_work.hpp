@@ -1,7 +1,9 @@
-// Counting for WorkCounts: one call per block, next to the call of the kernel that does the work.
+// Counting for WorkCounts: one call per block, next to the call of the kernel that does the work. What a file can ask for without limit, its
+// lights and alpha tests, is charged too (charge_work).
 #pragma once
 
 #include "halflit/report.hpp"
+#include "sh/time_limit.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 
 namespace halflit::raster {
@@ -27,11 +29,14 @@ inline void count_shading(WorkCounts& work, const shading::MaterialPlan& plan, i
 /// Counts the lights that are passed to a kernel.
 inline void count_lights(WorkCounts& work, const shading::MaterialPlan& plan, shading::LightList lights, int lanes) {
     if ((plan.stages & kStageLights) == 0) return;
+    constexpr std::uint64_t kUnitsALight = 10, kUnitsALookup = 8;
+    std::uint64_t lookups = 0;
     for (int i = 0; i < lights.count; ++i) {
         work.light_lanes[static_cast<std::size_t>(lights.lights[i].type)] += static_cast<std::uint64_t>(lanes);
-        if (lights.lights[i].shadow_map >= 0)
-            work.shadow_lookup_lanes += static_cast<std::uint64_t>(lanes) * static_cast<std::uint64_t>(lights.lights[i].shadow_points);
+        if (lights.lights[i].shadow_map >= 0) lookups += static_cast<std::uint64_t>(lights.lights[i].shadow_points);
     }
+    work.shadow_lookup_lanes += static_cast<std::uint64_t>(lanes) * lookups;
+    charge_work(static_cast<std::uint64_t>(lanes) * (kUnitsALight * static_cast<std::uint64_t>(lights.count) + kUnitsALookup * lookups));
 }
 
 /// Counts a call of ShadeKernels::light with all of the frame's lights.
@@ -44,6 +49,8 @@ inline void count_prelighting(WorkCounts& work, const shading::ShadingPlan& fram
 inline void count_alpha_test(WorkCounts& work, const shading::MaterialPlan& plan, int lanes) {
     count_stages(work, plan.stages & kAlphaStages, lanes);
     work.alpha_test_lanes += static_cast<std::uint64_t>(lanes);
+    constexpr std::uint64_t kUnitsATest = 5;
+    charge_work(kUnitsATest * static_cast<std::uint64_t>(lanes));
 }
 
 }  // namespace halflit::raster

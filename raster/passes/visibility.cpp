@@ -138,6 +138,8 @@ bool test_samples(const TilePass& pass, const shading::MaterialPlan& material, c
     std::memcpy(middle_u, u, sizeof middle_u);
     std::memcpy(middle_v, v, sizeof middle_v);
     unsigned left = 0;
+    constexpr std::uint64_t kUnitsASample = 8;
+    charge_work(kUnitsASample * static_cast<std::uint64_t>(samples.count) * static_cast<std::uint64_t>(list.count));
     for (int s = 0; s < samples.count; ++s) {
         const float x = static_cast<float>(samples.x[s]) * (1.0f / 256.0f), y = static_cast<float>(samples.y[s]) * (1.0f / 256.0f);
         for (int l = 0; l < list.count; ++l) {

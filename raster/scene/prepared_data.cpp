@@ -98,7 +98,7 @@ void PreparedData::place(std::size_t index) {
         instance_bounds_[index] = {};
         return;
     }
-    constexpr std::uint64_t kUnitsAVertex = 8;
+    constexpr std::uint64_t kUnitsAVertex = 12;
     charge_work(kUnitsAVertex * source_mesh(instance.mesh).positions.size());
     instance_bounds_[index] = placed_bounds(source_mesh(instance.mesh), mesh(instance.mesh), instance.world_from_object);
 }

@@ -16,7 +16,7 @@ constexpr double kPhase = 0.38;   ///< of the voxels' borders, so that round coo
 
 /// Points that are marked before large triangles count by their corners alone: a second or so. A scene of a million triangles that each
 /// fill the grid has 40 times as many.
-constexpr std::uint64_t kMostMarks = std::uint64_t{1} << 28, kBetweenLooks = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMostMarks = std::uint64_t{1} << 28, kBetweenLooks = std::uint64_t{1} << 20, kUnitsAMark = 4;
 
 class Marker {
 public:
@@ -37,6 +37,7 @@ public:
     void mark(Vec3d a, Vec3d b, Vec3d c) {
         if (marks_ >= next_look_) {
             check_time();
+            charge_work(kUnitsAMark * kBetweenLooks);
             next_look_ = marks_ + kBetweenLooks;
         }
         const Vec3d ab = b - a, bc = c - b, ca = a - c;

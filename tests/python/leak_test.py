@@ -37,7 +37,7 @@ class Leak(unittest.TestCase):
             for i in range(first, first + count):
                 kinds[i % 4](i)
                 if i % 50 == 0:  # failures do not leak either
-                    for wrong in (b"nothing", box(mesh=7)):
+                    for wrong in (b"nothing", b'{"asset":{"version":"1.0"}}'):
                         with self.assertRaises(halflit.Error):
                             halflit.render(wrong, 32)
 

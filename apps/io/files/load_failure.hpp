@@ -63,7 +63,7 @@ auto errors_of(const std::string& name, double time_limit_s, const Make& make) -
 
 /// Work that a file of this size may take.
 [[nodiscard]] inline std::uint64_t allowed_work(const LoadLimits& limits, std::uint64_t bytes) {
-    constexpr std::uint64_t kFree = 2'500'000'000, kByByte = 1'000;
+    constexpr std::uint64_t kFree = 1'700'000'000, kByByte = 1'000;
     return limits.max_work > 0 ? limits.max_work : kFree + kByByte * std::min(bytes, std::uint64_t{1} << 48);
 }
 

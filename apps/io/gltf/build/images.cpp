@@ -29,7 +29,7 @@ constexpr std::uint64_t kMostPixelsAByte = 1;
 
 /// Memory that the textures may take: small files, whose pictures hold little, get less.
 std::uint64_t texture_limit(const Document& document) {
-    constexpr std::uint64_t kFree = std::uint64_t{320} << 20, kByByte = 4096;
+    constexpr std::uint64_t kFree = std::uint64_t{96} << 20, kByByte = 640;
     const std::uint64_t most = document.options.limits.max_texture_bytes;
     return document.options.strict ? most : std::min(most, kFree + kByByte * (document.file_bytes + document.named_bytes));
 }
