@@ -35,7 +35,7 @@ namespace halflit::io::detail {
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 [[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// Of a decimal number other than 0: the power of ten of its first digit, within a few millions.
+/// The power of ten of the first digit of a decimal number other than 0, within a few millions.
 [[nodiscard]] inline long long exponent_of(std::string_view word) {
     const std::size_t e = std::min(word.find_first_of("eE"), word.size()), first = std::min(word.find_first_of("123456789"), e);
     const std::size_t point = std::min(word.find('.'), e);
@@ -106,7 +106,7 @@ public:
         left_.remove_prefix(to);
         return word;
     }
-    /// What has not been read yet, without blanks around it.
+    /// The text that has not been read yet, without blanks around it.
     [[nodiscard]] std::string_view rest() const {
         std::string_view text = left_;
         while (!text.empty() && (is_blank(text.front()) || is_line_end(text.front()))) text.remove_prefix(1);

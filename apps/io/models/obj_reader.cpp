@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    /// What becomes one mesh: the faces of an object with one material.
+    /// Faces that become one mesh: those of an object with one material.
     struct Part {
         std::uint32_t object;
         int material;

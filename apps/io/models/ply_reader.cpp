@@ -134,7 +134,7 @@ struct Layout {
         }
     }
     [[nodiscard]] bool has_channels() const { return has[red] && has[green] && has[blue]; }
-    /// Of 3D Gaussians: the part of their light that is the same from all sides.
+    /// True for 3D Gaussians, whose colour is the part of their light that is the same from all sides.
     [[nodiscard]] bool is_splat() const { return has[harmonic_0] && has[harmonic_1] && has[harmonic_2] && has[opacity]; }
     [[nodiscard]] bool has_color() const { return has_channels() || has[packed] || is_splat() || has_label(); }
     /// Classes or objects by number, where nothing else has colours.

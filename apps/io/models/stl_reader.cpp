@@ -52,7 +52,7 @@ public:
 private:
     enum class Keyword : std::uint8_t { none, solid, facet, outer, vertex, endloop, endfacet, endsolid, count };
     static constexpr std::size_t index(Keyword keyword) { return static_cast<std::size_t>(keyword); }
-    /// What may come next, for the strict rules.
+    /// Words that may come next, for the strict rules.
     static constexpr const char* kAfter[] = {"solid",    "facet or endsolid", "outer loop", "vertex", "vertex or endloop",
                                              "endfacet", "facet or endsolid", "solid"};
 

@@ -105,7 +105,7 @@ public:
     double wrong(std::string_view found, std::string_view expected);
     /// Refuses what was found, at this line.
     [[noreturn]] void refuse_word(std::string_view found, std::string_view expected) const;
-    /// What should come next, for the message of end().
+    /// Says what should come next, for the message of end().
     void expect_next(const char* what) { expected_ = what; }
     /// Throws CutOff: the text ends before what is expected. Strict: refuses it.
     [[noreturn]] void end() const {

@@ -209,7 +209,7 @@ Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLim
     const std::size_t row_bytes = (std::size_t{part_width} * layout.samples * layout.bits + 7) / 8;
     const std::uint32_t across = (width + part_width - 1) / part_width, down = (height + part_height - 1) / part_height;
     if (offsets->count < std::uint64_t{across} * down) return damaged("strips or tiles are missing");
-    // What a byte of the file can hold at most, so that a short file cannot take much memory.
+    // Bytes that a byte of the file can hold at most, so that a short file cannot take much memory.
     const std::uint64_t most_by_byte = compression == 1 ? 1 : compression == 32773 ? 64 : compression == 5 ? 2800 : 1032;
     if (std::uint64_t{row_bytes} * part_height * across * down / 2 > file.size() * most_by_byte)
         return damaged("the file ends within the pixels");
