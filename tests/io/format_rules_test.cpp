@@ -242,7 +242,7 @@ TEST_CASE("3MF: a fault beside the triangles leaves them, with one warning, and 
         CHECK_FALSE(load_any(three_mf(model)));
     }
     const LoadedScene none = load_any_ok(three_mf(with(item, "<item objectid=\"1\" printable=\"0\"/>")));
-    CHECK(none.warnings.back() == "the build has nothing to draw");
+    CHECK(none.warnings == std::vector<std::string>{"1 items that are not to be printed are left out", "the model has nothing to draw"});
     // A part that cannot be read fails at each use alike, a texture that is missing costs its colours alone.
     const std::string gone = "<item p:path=\"/gone.model\" objectid=\"1\"/>";
     const auto parts = load_any(
@@ -257,13 +257,15 @@ TEST_CASE("3MF: a fault beside the triangles leaves them, with one warning, and 
     REQUIRE(untextured);
     CHECK(untextured->info.triangles_drawn == letter().triangles.size());
     CHECK(untextured->warnings == std::vector<std::string>{"3D/3dmodel.model: texture2d 9: is not there; drawn in grey"});
-    // A thumbnail of another format may come first, and a damaged one is not drawn.
+    // A thumbnail of another format may come first, and of a file without a mesh, the next one is drawn for one that is damaged.
     const Bytes types = to_bytes("<Types/>");
     CHECK(load_any(zip_of({{"Metadata/a.webp", types}, {"[Content_Types].xml", types}, {"3D/3dmodel.model", to_bytes(text)}}, false)));
-    Bytes sliced = zip_of({{"Metadata/thumbnail.png", to_bytes("a picture")},
+    const Bytes picture = plain_png(2, 2, 9, 9, 9);
+    Bytes sliced = zip_of({{"Metadata/plate_1.png", picture},
+                           {"Metadata/thumbnail.png", picture},
                            {"3D/3dmodel.model", to_bytes(three_mf_text("meter", "", ""))}}, false);
-    sliced[30 + 22] = std::byte{'A'};
-    CHECK(load_any(sliced, tolerant));
+    sliced[30 + 20] = std::byte{'A'};
+    CHECK(load_any_ok(sliced).warnings.back() == "the file has no mesh; its picture \"Metadata/thumbnail.png\" is drawn");
     CHECK(load_any(three_mf(replaced(text, "version=\"1.0\"", "version=\"1.0\" encoding=")), tolerant));
     const LoadedScene all = load_any_ok(three_mf(with(item, "")));  // a build may be empty
     CHECK(all.info.triangles_drawn == letter().triangles.size());

@@ -88,8 +88,7 @@ public:
             builder_.document().warn(
                 fmt::format("{} modifiers, negative volumes and supports are left out: they are not printed as bodies", helpers_));
         const bool has_mesh = helpers_ > 0 || left_out > 0 || !builder_.loaded().scene.meshes.empty();
-        if (builder_.loaded().scene.instances.empty() && (has_mesh || !place_picture()))
-            builder_.document().warn("the build has nothing to draw");
+        if (builder_.loaded().scene.instances.empty() && !has_mesh) place_picture();
         return root.model.metres;
     }
 
@@ -212,18 +211,17 @@ private:
         return bounds_work_ > kMostBoundsWork ? one : plates_by_place(bodies);
     }
 
-    /// A file of machine code alone holds a picture of the plate. False: it has none.
-    bool place_picture() {
+    /// A file of machine code alone may hold a picture of the plate.
+    void place_picture() {
         const std::string plate = fmt::format("Metadata/plate_{}.png", std::max(1, builder_.options().plate));
         for (const std::string& name : {plate, picture_, std::string("Metadata/thumbnail.png")}) {
             try {
                 auto picture = name.empty() ? std::nullopt : package_.read(name);
-                if (picture && builder_.place_card(*std::move(picture), name)) return true;
+                if (picture && builder_.place_card(*std::move(picture), name)) return;
             } catch (const LoadFailure& failure) {
                 builder_.document().go_on_without(failure, "it is not drawn");
             }
         }
-        return false;
     }
 
     Part& part(const std::string& given) {
