@@ -203,7 +203,8 @@ TEST_CASE("pictures: TIFF of each kind that painting programs write comes back",
                                    {.compression = 5, .parts = {rgb}}})
         CHECK_FALSE(decode(wrong.file(), "a.tif"));
     // Each tile takes its memory, however few rows the picture has.
-    const auto high = decode(TiffMaker{.width = 2, .height = 1, .compression = 5, .tile = 4096, .parts = {lzw_of("abcdef")}}.file(), "a.tif");
+    const auto high =
+        decode(TiffMaker{.width = 2, .height = 1, .compression = 5, .tile = 4096, .parts = {lzw_of("abcdef")}}.file(), "a.tif");
     REQUIRE_FALSE(high);
     CHECK(high.error().message.find("the file ends within the pixels") != std::string::npos);
 }

@@ -57,7 +57,8 @@ TEST_CASE("scanner: words and numbers by one rule", "[io][text]") {
     document.geometry.set_limit(1000);
     std::vector<std::string_view> kept;
     io::detail::TextScanner scanner(
-        "one \t two\v# a comment\r\n#kept 1\n\n  1.5 2, 3;4 0,5 1.5D+01 -2.f nan(ind) 1,2,3 word 7\nlast \\\nname # no\nnames a.mtl \\\r\n b.mtl\\\nc.mtl\nMaterial #25 "
+        "one \t two\v# a comment\r\n#kept 1\n\n  1.5 2, 3;4 0,5 1.5D+01 -2.f nan(ind) 1,2,3 word 7\nlast \\\nname # no\nnames a.mtl \\\r\n "
+        "b.mtl\\\nc.mtl\nMaterial #25 "
         "\n\x1A",
         document, "", true);
     scanner.keep_comments("#kept ", kept);

@@ -51,8 +51,8 @@ public:
         while (behind < end_ && !is_space(*behind) && !is_joined_end(behind)) ++behind;
         return {at_, static_cast<std::size_t>(behind - at_)};
     }
-    /// The rest of the line without blanks around it, up to a comment; with_marks: with what stands behind a `#`, which names may have. Joined
-    /// lines are one, with a blank between them, until the next call.
+    /// The rest of the line without blanks around it, up to a comment; with_marks: with what stands behind a `#`, which names may have.
+    /// Joined lines are one, with a blank between them, until the next call.
     std::string_view rest_of_line(bool with_marks = false);
     /// Bytes up to the end of the line, with those that are joined to it.
     [[nodiscard]] std::size_t rest_size() const;

@@ -105,8 +105,8 @@ struct Reading {
     int depth = 0;
     std::uint64_t elements = 0;
     bool has_lost_prefix = false;
-    std::map<std::string, std::vector<std::string>, std::less<>> spaces;   ///< of a prefix, the innermost last
-    std::vector<std::pair<int, decltype(spaces)::iterator>> declared;  ///< with the depth of its element
+    std::map<std::string, std::vector<std::string>, std::less<>> spaces;  ///< of a prefix, the innermost last
+    std::vector<std::pair<int, decltype(spaces)::iterator>> declared;     ///< with the depth of its element
 
     template <class Action>
     void guarded(const Action& action) {

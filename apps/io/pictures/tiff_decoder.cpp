@@ -186,9 +186,9 @@ Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLim
                   tiff.first(kCompression, 1), tiff.first(kPredictor, 1), false};
     const bool is_palette = layout.photometric == 3, is_color = layout.photometric == 2;
     layout.has_alpha = layout.samples == (is_color ? 4u : 2u) && tiff.first(kExtra, 2) != 0;
-    const bool can_read =
-        layout.photometric <= 3 && layout.samples >= (is_color ? 3u : 1u) && layout.samples <= 8 &&
-        (layout.bits == 8 || (layout.bits == 16 && !is_palette) || (layout.bits > 0 && layout.bits < 8 && 8 % layout.bits == 0 && layout.samples == 1));
+    const bool can_read = layout.photometric <= 3 && layout.samples >= (is_color ? 3u : 1u) && layout.samples <= 8 &&
+                          (layout.bits == 8 || (layout.bits == 16 && !is_palette) ||
+                           (layout.bits > 0 && layout.bits < 8 && 8 % layout.bits == 0 && layout.samples == 1));
     const std::uint32_t compression = layout.compression;
     if (!can_read || (compression != 1 && compression != 5 && compression != 8 && compression != 32773 && compression != 32946) ||
         tiff.first(kPlanes, 1) != 1 || tiff.first(kSampleFormat, 1) != 1 || layout.predictor > 2)
