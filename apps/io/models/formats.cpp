@@ -104,7 +104,10 @@ static_assert(each_format_has_a_row());
 std::string_view begin_of(std::span<const std::byte> bytes) { return as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024))); }
 
 /// True for a ZIP file that is not 3MF, whose package may hold files of any kind.
-bool is_no_package(std::span<const std::byte> bytes) { return as_text(bytes).find("[Content_Types].xml") == std::string_view::npos; }
+bool is_no_package(std::span<const std::byte> bytes) {
+    const auto names = [&](std::string_view part) { return as_text(bytes).find(part) != std::string_view::npos; };
+    return !names("[Content_Types].xml") && !names(".model");
+}
 
 /// True for a ZIP file whose first entry is a scene of USD.
 bool begins_with_usd(std::span<const std::byte> bytes) {

@@ -32,6 +32,8 @@ namespace halflit::io::detail {
     });
 }
 
+/// White space of any kind, and control characters.
+[[nodiscard]] constexpr bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 [[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
@@ -99,9 +101,9 @@ public:
     /// The next word; empty at the end.
     std::string_view next() {
         std::size_t from = 0;
-        while (from < left_.size() && (is_blank(left_[from]) || is_line_end(left_[from]))) ++from;
+        while (from < left_.size() && is_space(left_[from])) ++from;
         std::size_t to = from;
-        while (to < left_.size() && !is_blank(left_[to]) && !is_line_end(left_[to])) ++to;
+        while (to < left_.size() && !is_space(left_[to])) ++to;
         const std::string_view word = left_.substr(from, to - from);
         left_.remove_prefix(to);
         return word;
@@ -109,8 +111,8 @@ public:
     /// The text that has not been read yet, without blanks around it.
     [[nodiscard]] std::string_view rest() const {
         std::string_view text = left_;
-        while (!text.empty() && (is_blank(text.front()) || is_line_end(text.front()))) text.remove_prefix(1);
-        while (!text.empty() && (is_blank(text.back()) || is_line_end(text.back()))) text.remove_suffix(1);
+        while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+        while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
         return text;
     }
 

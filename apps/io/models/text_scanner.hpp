@@ -122,7 +122,6 @@ public:
     [[nodiscard]] std::string_view left() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
 private:
-    static bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
     [[nodiscard]] bool is_joined_end(const char* at) const { return joined_lines_ && *at == '\\' && at + 1 < end_ && is_line_end(at[1]); }
     /// Behind the end of a line.
     [[nodiscard]] const char* behind_end(const char* at) const { return at + (*at == '\r' && at + 1 < end_ && at[1] == '\n' ? 2 : 1); }
