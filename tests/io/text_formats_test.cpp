@@ -373,6 +373,16 @@ TEST_CASE("MTL: renamed files, tiles, quotes and names in another case are found
     CHECK(color_of("mtllib part.mtl\nmtllib part.mtl\nusemtl RED\n").first == Vec4f{1, 0, 0, 1});  // the same one twice
     CHECK(color_of("mtllib \\\npart.mtl \\\n\"two words.mtl\"\nusemtl Red\n").first == Vec4f{1, 0, 0, 1});
     CHECK(color_of("newmtl own\nmtllib part.mtl\nKd 0 1 0\nusemtl own\n").first == Vec4f{0, 1, 0, 1});
+    // The library may come behind the faces, and these before their vertices: then each has the material that stood before it.
+    write("part.obj", "f 1 2 3\nusemtl Red\nf 3 2 1\nusemtl Red\n" + kCorners + "mtllib part.mtl\n");
+    const auto behind = load_model(folder + "/part.obj");
+    REQUIRE(behind);
+    REQUIRE(behind->scene.meshes.size() == 2);
+    const auto color = [&](std::size_t mesh) {
+        return behind->scene.materials.at(static_cast<std::size_t>(behind->scene.meshes[mesh].material)).base_color;
+    };
+    CHECK_FALSE(color(0) == Vec4f{1, 0, 0, 1});
+    CHECK(color(1) == Vec4f{1, 0, 0, 1});
     write("part.mtl", "newmtl Red\nmap_Kd a.png\nbump b.png\n");
     write("part.obj", "newmtl own\nnorm c.png\nusemtl Red\n" + kCorners + "f 1 2 3\n");
     const auto named = io::files_named_by(folder + "/part.obj", {});

@@ -67,9 +67,7 @@ int like_gltf(const FileBegin& begin) {
 
 bool is_zip(std::string_view text) { return text.starts_with("PK\3\4") || text.starts_with("PK\5\6"); }
 
-bool is_ply(std::string_view text) {
-    return text.size() > 3 && same_word(text.substr(0, 3), "ply") && (is_line_end(text[3]) || is_blank(text[3]));
-}
+bool is_ply(std::string_view text) { return text.size() > 3 && same_word(text.substr(0, 3), "ply") && is_space(text[3]); }
 
 /// A reader that does not need the file's name.
 template <auto kRead>

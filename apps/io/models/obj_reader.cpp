@@ -17,6 +17,7 @@
 #include <charconv>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace halflit::io::detail {
 
@@ -144,6 +145,7 @@ private:
 
     void begin_object(std::string_view name) {
         builder_.document().geometry.take(sizeof(std::string) + name.size());
+        object_ = static_cast<std::uint32_t>(objects_.size());
         objects_.emplace_back(name);
         part_ = kNone;
     }
@@ -220,10 +222,9 @@ private:
         smoothing_ = group ? std::min(*group, kNone - 1) : 0;  // "off"
     }
 
-    void use_material(std::string name) {
-        if (name == material_name_ && has_material_name_) return;
+    void use_material(std::optional<std::string> name) {
+        if (name == material_name_) return;
         material_name_ = std::move(name);
-        has_material_name_ = true;
         material_is_known_ = false;
         part_ = kNone;
     }
@@ -231,13 +232,12 @@ private:
     /// The part of the next face.
     std::uint32_t current_part() {
         if (part_ != kNone) return part_;
-        if (!material_is_known_) material_ = has_material_name_ ? libraries_.find(material_name_) : -1;
+        if (!material_is_known_) material_ = material_name_ ? libraries_.find(*material_name_) : -1;
         material_is_known_ = true;
-        const auto object = static_cast<std::uint32_t>(objects_.size() - 1);
-        const auto [entry, is_new] = part_at_.try_emplace({object, material_}, static_cast<std::uint32_t>(parts_.size()));
+        const auto [entry, is_new] = part_at_.try_emplace({object_, material_}, static_cast<std::uint32_t>(parts_.size()));
         if (is_new) {
             builder_.document().geometry.take(128);
-            parts_.push_back({object, material_, false});
+            parts_.push_back({object_, material_, false});
         }
         return part_ = entry->second;
     }
@@ -286,7 +286,8 @@ private:
     struct Late {
         TextScanner::Mark corners;
         Topology topology;
-        std::uint32_t part, smoothing;
+        std::uint32_t object, smoothing;
+        std::optional<std::string> material;
     };
     /// True if vertices of the corners that come next are not there yet.
     [[nodiscard]] bool is_late() {
@@ -303,8 +304,10 @@ private:
         for (std::size_t i = 0; i < late_.size(); ++i) {
             if (i % 65536 == 0) check_time();
             scanner_.go_back(late_[i].corners);
-            part_ = late_[i].part;
+            object_ = late_[i].object;
+            part_ = kNone;
             smoothing_ = late_[i].smoothing;
+            use_material(std::move(late_[i].material));
             read_element(late_[i].topology);
         }
         late_.clear();
@@ -320,8 +323,8 @@ private:
             scanner_.go_back(begin);
             if (late_are_read_ || !is_late()) return void(++bad_faces_);
             lost_attributes_ = lost;
-            builder_.document().geometry.take(sizeof(Late));
-            return late_.push_back({begin, topology, current_part(), smoothing_});
+            builder_.document().geometry.take(sizeof(Late) + (material_name_ ? material_name_->size() : 0));
+            return late_.push_back({begin, topology, object_, smoothing_, material_name_});
         }
         const std::size_t least = topology == Topology::triangles ? 3 : topology == Topology::lines ? 2 : 0;
         if (corners_.size() < least) {
@@ -366,10 +369,10 @@ private:
     std::vector<std::string> objects_{""};
     std::vector<Part> parts_;
     std::map<std::pair<std::uint32_t, int>, std::uint32_t> part_at_;
-    std::string material_name_;
-    bool has_material_name_ = false, material_is_known_ = true;
+    std::optional<std::string> material_name_;
+    bool material_is_known_ = true;
     int material_ = -1;
-    std::uint32_t part_ = kNone, smoothing_ = Soup::kByCrease;
+    std::uint32_t object_ = 0, part_ = kNone, smoothing_ = Soup::kByCrease;
     std::vector<Corner> corners_;
     std::vector<Vec3d> points_;
     std::vector<std::uint32_t> triangles_, positions_;
