@@ -1,4 +1,4 @@
-// Bytes as a picture of a texture: PNG, JPEG or KTX2, at 8 bits and at 16.
+// Bytes as a picture of a texture: PNG, JPEG, WebP, TIFF or KTX2, at 8 bits and at 16.
 #include "tests/fuzz/loading.hpp"
 #include "tests/fuzz/mutate.hpp"
 

@@ -109,6 +109,35 @@ def jpeg(width, height, components=1, progressive=False, restart=0, adobe=None):
     return file + b'\xff\xd9'
 
 
+def lzw(data):
+    """Codes of nine bits: each byte by itself, and a clear code before ten bits are needed."""
+    text = ''.join((format(256, '09b') if i % 200 == 0 else '') + format(byte, '09b') for i, byte in enumerate(data)) + format(257, '09b')
+    text += '0' * (-len(text) % 8)
+    return bytes(int(text[i:i + 8], 2) for i in range(0, len(text), 8))
+
+
+def tiff(width, height, parts, samples=3, bits=8, photometric=2, compression=1, predictor=1, tile=0, palette=()):
+    """One directory; the samples count upwards in strips of the whole width, or in tiles."""
+    tags = [(256, 3, [width]), (257, 3, [height]), (258, 3, [bits] * samples), (259, 3, [compression]), (262, 3, [photometric]),
+            (277, 3, [samples]), (317, 3, [predictor])]
+    tags += [(320, 3, list(palette))] if palette else []
+    tags += [(322, 3, [tile]), (323, 3, [tile])] if tile else [(278, 3, [-(-height // len(parts))])]
+    at = 8 + 2 + 12 * (len(tags) + 2) + 4
+    body = b''
+    places = []
+    for part in parts:
+        places.append(at + len(body))
+        body += part
+    tags += [(324 if tile else 273, 4, places), (325 if tile else 279, 4, [len(part) for part in parts])]
+    entries = b''
+    for tag, kind, values in sorted(tags):
+        packed = struct.pack(f'<{len(values)}{"H" if kind == 3 else "I"}', *values)
+        if len(packed) > 4:
+            body, packed = body + packed, struct.pack('<I', at + len(body))
+        entries += struct.pack('<HHI', tag, kind, len(values)) + packed.ljust(4, b'\0')
+    return b'II*\0' + struct.pack('<IH', 8, len(tags)) + entries + bytes(4) + body
+
+
 # Streams of the encoders of libwebp, Draco and meshoptimizer: a picture of 4 x 3 pixels, and the two triangles of a square.
 WEBP = bytes.fromhex(
     '524946463a000000574542505650384c2e0000002f038000105f20164cae19e48f1bc3505c814241da062c96d0ee24e81f080248146289659659669934a2ff81e90e')
@@ -161,6 +190,13 @@ def pictures():
     out['jpeg_ycck'] = jpeg(9, 8, 4, adobe=2)
     out['jpeg_rgb'] = jpeg(9, 8, 3, adobe=0)
     out.update(webp=WEBP, webp_lossy=WEBP_LOSSY)
+    rgb = bytes(i * 37 % 256 for i in range(5 * 4 * 3))
+    out['tiff_strips'] = tiff(5, 4, [rgb[:30], rgb[30:]])
+    out['tiff_tiles'] = tiff(20, 9, [bytes(i * k % 256 for i in range(16 * 16)) for k in (3, 7)], samples=1, photometric=1, tile=16)
+    out['tiff_lzw'] = tiff(5, 4, [lzw(rgb)], compression=5, predictor=2)
+    out['tiff_deflate_16'] = tiff(5, 2, [zlib.compress(rgb, 0)], bits=16, compression=8, predictor=2)
+    out['tiff_packbits'] = tiff(5, 4, [b'\x3b' + rgb], compression=32773)
+    out['tiff_palette'] = tiff(5, 4, [bytes(range(12))], samples=1, bits=4, photometric=3, palette=range(0, 48 * 1000, 1000))
     return out
 
 

@@ -241,6 +241,35 @@ TEST_CASE("3MF: a fault beside the triangles leaves them, with one warning, and 
                             [&, found = part](const std::string& warning) { return warning.find(found) != std::string::npos; }) >= 1);
         CHECK_FALSE(load_any(three_mf(model)));
     }
+    const LoadedScene none = load_any_ok(three_mf(with(item, "<item objectid=\"1\" printable=\"0\"/>")));
+    CHECK(none.warnings == std::vector<std::string>{"1 items that are not to be printed are left out", "the model has nothing to draw"});
+    // A part that cannot be read fails at each use alike, a texture that is missing costs its colours alone.
+    const std::string gone = "<item p:path=\"/gone.model\" objectid=\"1\"/>";
+    const auto parts = load_any(three_mf(replaced(with(item, gone + gone + item), "<model",
+                                                  "<model xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"")),
+                                tolerant);
+    REQUIRE(parts);
+    CHECK(parts->warnings == std::vector<std::string>{"gone.model: is not in the ZIP file; the item is left out"});
+    const std::string group = "<m:texture2dgroup id=\"7\" texid=\"9\"><m:tex2coord u=\"0\" v=\"0\"/></m:texture2dgroup>";
+    const auto untextured = load_any(three_mf(three_mf_text("meter",
+                                                            group + "<object id=\"1\" pid=\"7\" pindex=\"0\">" +
+                                                                three_mf_mesh(letter(), 1.0f, {"pid=\"7\" p1=\"0\""}) + "</object>",
+                                                            item)),
+                                     tolerant);
+    REQUIRE(untextured);
+    CHECK(untextured->info.triangles_drawn == letter().triangles.size());
+    CHECK(untextured->warnings == std::vector<std::string>{"3D/3dmodel.model: texture2d 9: is not there; drawn in grey"});
+    // A thumbnail of another format may come first, and of a file without a mesh, the next one is drawn for one that is damaged.
+    const Bytes types = to_bytes("<Types/>");
+    CHECK(load_any(zip_of({{"Metadata/a.webp", types}, {"[Content_Types].xml", types}, {"3D/3dmodel.model", to_bytes(text)}}, false)));
+    const Bytes picture = plain_png(2, 2, 9, 9, 9);
+    Bytes sliced = zip_of({{"Metadata/plate_1.png", picture},
+                           {"Metadata/thumbnail.png", picture},
+                           {"3D/3dmodel.model", to_bytes(three_mf_text("meter", "", ""))}},
+                          false);
+    sliced[30 + 20] = std::byte{'A'};
+    CHECK(load_any_ok(sliced).warnings.back() == "the file has no mesh; its picture \"Metadata/thumbnail.png\" is drawn");
+    CHECK(load_any(three_mf(replaced(text, "version=\"1.0\"", "version=\"1.0\" encoding=")), tolerant));
     const LoadedScene all = load_any_ok(three_mf(with(item, "")));  // a build may be empty
     CHECK(all.info.triangles_drawn == letter().triangles.size());
     CHECK(all.warnings == std::vector<std::string>{"3D/3dmodel.model: the build has no items that are there; all objects are drawn"});

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <tuple>
@@ -271,6 +272,22 @@ TEST_CASE("tolerance: the sides of a skinned mesh are by the sign of its node's 
         const auto at = [&](std::size_t i) { return mesh.positions.at(mesh.indices.at(i)); };
         CHECK(cross(at(1) - at(0), at(2) - at(0)).z > 0);
     }
+}
+
+TEST_CASE("tolerance: vertices with weights that are not finite or negative are counted, not their weights", "[io]") {
+    Bytes joints, weights;
+    append<std::uint8_t>(joints, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    append<float>(weights, {1, nan, nan, nan, 1, -1, -1, 0, 1, 0, 0, 0});
+    TriangleFile file;
+    const int joint = file.add(joints, R"("componentType":5121,"count":3,"type":"VEC4")");
+    const int weight = file.add(weights, R"("componentType":5126,"count":3,"type":"VEC4")");
+    file.attributes += fmt::format(",\"JOINTS_0\":{},\"WEIGHTS_0\":{}", joint, weight);
+    file.rest = R"(,"skins":[{"joints":[0]}])";
+    const LoadedScene loaded = load_ok(glb(replaced(file.json(), "{\"mesh\":0}", "{\"mesh\":0,\"skin\":0}"), file.bin));
+    for (const char* part : {"1 of 3 vertices have weights that are not finite", "1 of 3 vertices have negative weights"})
+        CHECK(std::any_of(loaded.warnings.begin(), loaded.warnings.end(),
+                          [&](const std::string& warning) { return warning.find(part) != std::string::npos; }));
 }
 
 TEST_CASE("tolerance: an avatar of VRM 0.x faces back, one of VRM 1.0 does not", "[io]") {

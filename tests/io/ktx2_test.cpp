@@ -131,6 +131,19 @@ TEST_CASE("ktx2: plain channels come as Vulkan's formats have them, under each c
         packed.level.resize(ZSTD_compress(packed.level.data(), packed.level.size(), maker.level.data(), maker.level.size(), 3));
         CHECK(pixels_of(packed.file()) == expected);
     }
+    // A frame of unknown length, with a window of 8 MB, and with one of 128 MB, which so small a level cannot need.
+    Ktx2Maker frame = uastc();
+    const Bytes blocks = frame.level;
+    for (const auto& [window, is_read] : {std::pair(0x68, true), {0x88, false}}) {
+        frame.scheme = kZstd;
+        frame.level.clear();
+        append<std::uint32_t>(frame.level, {0xFD2FB528u});
+        append<std::uint8_t>(frame.level, {0, static_cast<std::uint8_t>(window)});
+        append<std::uint16_t>(frame.level, {static_cast<std::uint16_t>(blocks.size() << 3 | 1)});
+        append<std::uint8_t>(frame.level, {0});
+        frame.level.insert(frame.level.end(), blocks.begin(), blocks.end());
+        CHECK(io::decode_image(frame.file()).has_value() == is_read);
+    }
 }
 
 TEST_CASE("ktx2: KTXswizzle chooses the channels of a plain picture", "[io]") {

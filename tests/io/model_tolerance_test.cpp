@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace halflit;
@@ -94,6 +95,11 @@ TEST_CASE("tolerance: PLY that is cut off, has longer rows or unknown header lin
     CHECK(read(replaced(header, "element vertex", "created by a program\nelement vertex") + vertices + "3 0 1 2\n3 0 2 3\n")
               .info.triangles_drawn == 2);
     CHECK_FALSE(load_any(to_bytes(header + vertices + "3 0 1 2\n3 0 ")));
+    // A binary list that is longer than the file has no line.
+    Bytes binary = ply_of(letter(), PlyKind::little);
+    const std::string_view text(reinterpret_cast<const char*>(binary.data()), binary.size());
+    binary.resize(text.find("end_header\n") + 11 + 17 * letter().points.size() + 10);
+    CHECK(refusal_of(binary).find("line") == std::string::npos);
 }
 
 TEST_CASE("tolerance: OBJ with odd numbers, faces and orders is drawn", "[io][obj]") {
@@ -102,6 +108,12 @@ TEST_CASE("tolerance: OBJ with odd numbers, faces and orders is drawn", "[io][ob
     CHECK(read(kTriangle + "f 1 2\nf 1 2 3\n").info.triangles_drawn == 1);
     CHECK(read(kTriangle + "vt 0 0\nf 1/9 2/1 3/1\n").info.triangles_drawn == 1);
     CHECK(read("f 1 2 3\n" + kTriangle).info.triangles_drawn == 1);
+    const LoadedScene late = read("o a\nf 1 2 3\nl 1 2\np 3\nf 1 2 9\nf 1/x 2 3\no b\n" + kTriangle + "f 1 3 2\n");
+    REQUIRE(late.scene.meshes.size() == 4);  // of the object a: faces, lines, points
+    CHECK(std::count_if(late.scene.meshes.begin(), late.scene.meshes.end(), [](const Mesh& mesh) { return mesh.name == "a"; }) == 3);
+    CHECK(late.info.triangles_drawn == 3);
+    CHECK(is_warned(late, "1 faces, lines or points with indices out of range"));
+    CHECK(is_warned(late, "line 6: expected an index, found \"x\""));
     const LoadedScene cloud = read(kTriangle);
     CHECK(cloud.scene.meshes.at(0).topology == Topology::points);
     for (const char* bad : {"f 1 2\nf 1 2 3\n", "vt 0 0\nf 1/9 2/1 3/1\n"}) CHECK_FALSE(load_any(to_bytes(kTriangle + bad)));

@@ -50,6 +50,7 @@ TEST_CASE("OFF: colours are sRGB codes or shares, of vertices or of faces", "[io
     CHECK(first_color("COFF\n3 1 0\n0 0 0 1 0 0 255\n1 0 0 1 0 0 255\n0 1 0 1 0 0 255\n3 0 1 2\n").x < 0.001f);
     CHECK(first_color(off_of(letter(), "OFF\n", " 0 0 255")) == Vec4f{0, 0, 1, 1});
     CHECK(first_color(off_of(letter(), "OFF\n", " 0.0 0.0 1.0 0.5")) == Vec4f{0, 0, 1, 1});
+    CHECK(first_color("OFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1") == Vec4f{1, 0, 0, 1});  // cut off among the vertices
     // An index into a table of colours that no file has.
     CHECK(load_any_ok(to_bytes(off_of(letter(), "OFF\n", " 3"))).scene.meshes[0].colors.empty());
 }

@@ -197,10 +197,16 @@ TEST_CASE("pictures: TIFF of each kind that painting programs write comes back",
     for (const TiffMaker& wrong : {TiffMaker{.compression = 7, .parts = {rgb}},
                                    {.samples = 2, .parts = {rgb}},
                                    {.bits = 32, .parts = {rgb}},
+                                   {.samples = 1, .bits = 0, .photometric = 1, .parts = {rgb}},
                                    {.parts = {rgb.substr(1)}},
                                    {.width = 20000, .parts = {rgb}},
                                    {.compression = 5, .parts = {rgb}}})
         CHECK_FALSE(decode(wrong.file(), "a.tif"));
+    // Each tile takes its memory, however few rows the picture has.
+    const auto high =
+        decode(TiffMaker{.width = 2, .height = 1, .compression = 5, .tile = 4096, .parts = {lzw_of("abcdef")}}.file(), "a.tif");
+    REQUIRE_FALSE(high);
+    CHECK(high.error().message.find("the file ends within the pixels") != std::string::npos);
 }
 
 TEST_CASE("pictures: PNG, BMP and TGA come back as they were written, alpha too", "[io][picture]") {

@@ -1,5 +1,6 @@
 // STL, OBJ, OFF and PLY as programs write them: words wherever lines end, words that the formats do not have, values that are not used, and
 // colours that stand for none.
+#include "apps/io/files/model_files.hpp"
 #include "apps/io/models/text_scanner.hpp"
 #include "halflit/image.hpp"
 #include "halflit/target.hpp"
@@ -10,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -55,7 +57,8 @@ TEST_CASE("scanner: words and numbers by one rule", "[io][text]") {
     document.geometry.set_limit(1000);
     std::vector<std::string_view> kept;
     io::detail::TextScanner scanner(
-        "one \t two\v# a comment\r\n#kept 1\n\n  1.5 2, 3;4 0,5 1.5D+01 -2.f nan(ind) 1,2,3 word 7\nlast \\\nname # no\nMaterial #25 "
+        "one \t two\v# a comment\r\n#kept 1\n\n  1.5 2, 3;4 0,5 1.5D+01 -2.f nan(ind) 1,2,3 word 7\nlast \\\nname # no\nnames a.mtl \\\r\n "
+        "b.mtl\\\nc.mtl\nMaterial #25 "
         "\n\x1A",
         document, "", true);
     scanner.keep_comments("#kept ", kept);
@@ -74,6 +77,11 @@ TEST_CASE("scanner: words and numbers by one rule", "[io][text]") {
     CHECK_FALSE(scanner.take_number(value));
     CHECK(scanner.word() == "last");
     CHECK(scanner.rest_of_line() == "name");
+    CHECK(scanner.word() == "names");
+    CHECK(scanner.words_in_line(9) == 3);
+    CHECK(scanner.rest_size() == 23);
+    CHECK(scanner.rest_of_line() == "a.mtl   b.mtl c.mtl");
+    CHECK(scanner.line() == 9);
     CHECK(scanner.word() == "Material");
     CHECK(scanner.rest_of_line(true) == "#25");
     CHECK(scanner.word().empty());
@@ -276,6 +284,10 @@ TEST_CASE("PLY: comments in the body, other names and types, and values that are
     const std::string colored = each(header, "int label", "uchar red\nproperty uchar green\nproperty uchar blue");
     CHECK(read(colored + "0 0 0 0 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n").scene.meshes.at(0).colors.empty());
     CHECK(read(colored + "0 0 0 0 0 0\n1 0 0 0 0 0\n0 1 0 0 0 1\n3 0 1 2\n").scene.meshes.at(0).colors.size() == 3);
+    const std::string faces = each(each(header, "property int label\n", ""), "vertex_indices\n",
+                                   "vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n");
+    CHECK(read(faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0 0 0\n").scene.meshes.at(0).colors.empty());
+    CHECK(read(faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0 0 255\n").scene.meshes.at(0).colors.at(0) == Vec4f{0, 0, 1, 1});
 }
 
 TEST_CASE("PLY: flat clouds lie, in float32 too, and reliefs stand", "[io][ply]") {
@@ -356,6 +368,27 @@ TEST_CASE("MTL: renamed files, tiles, quotes and names in another case are found
     CHECK(color_of("mtllib part.mtl\nusemtl other\n").first == Vec4f{0.5f, 0.5f, 0.5f, 1});
     write("part.mtl", "newmtl Blue\nKd 0 0 1\nnewmtl blue\nKd 0 1 0\n");  // two alike: neither is meant
     CHECK(color_of("mtllib part.mtl\nusemtl BLUE\n").first == Vec4f{0.5f, 0.5f, 0.5f, 1});
+
+    write("part.mtl", "newmtl Red\nKd 1 0 0\n");
+    CHECK(color_of("mtllib part.mtl\nmtllib part.mtl\nusemtl RED\n").first == Vec4f{1, 0, 0, 1});  // the same one twice
+    CHECK(color_of("mtllib \\\npart.mtl \\\n\"two words.mtl\"\nusemtl Red\n").first == Vec4f{1, 0, 0, 1});
+    CHECK(color_of("newmtl own\nmtllib part.mtl\nKd 0 1 0\nusemtl own\n").first == Vec4f{0, 1, 0, 1});
+    // The library may come behind the faces, and these before their vertices: then each has the material that stood before it.
+    write("part.obj", "f 1 2 3\nusemtl Red\nf 3 2 1\nusemtl Red\n" + kCorners + "mtllib part.mtl\n");
+    const auto behind = load_model(folder + "/part.obj");
+    REQUIRE(behind);
+    REQUIRE(behind->scene.meshes.size() == 2);
+    const auto color = [&](std::size_t mesh) {
+        return behind->scene.materials.at(static_cast<std::size_t>(behind->scene.meshes[mesh].material)).base_color;
+    };
+    CHECK_FALSE(color(0) == Vec4f{1, 0, 0, 1});
+    CHECK(color(1) == Vec4f{1, 0, 0, 1});
+    write("part.mtl", "newmtl Red\nmap_Kd a.png\nbump b.png\n");
+    write("part.obj", "newmtl own\nnorm c.png\nusemtl Red\n" + kCorners + "f 1 2 3\n");
+    const auto named = io::files_named_by(folder + "/part.obj", {});
+    REQUIRE(named);
+    for (const char* name : {"part.mtl", "a.png", "b.png", "c.png"})
+        CHECK(std::any_of(named->begin(), named->end(), [&](const std::string& path) { return path.ends_with(name); }));
 
     Image texel{1, 1, {0, 255, 0, 255}, {}};
     REQUIRE(write_image(folder + "/wood.1001.png", texel));

@@ -1,5 +1,6 @@
 #include "apps/io/files/zip_file.hpp"
 
+#include "apps/io/files/deflate.hpp"
 #include "apps/io/files/little_endian.hpp"
 #include "apps/io/files/load_failure.hpp"
 #include "apps/io/files/text.hpp"
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <memory>
-#include <new>
 #include <numeric>
 #include <optional>
 
@@ -156,11 +155,7 @@ void ZipFile::unpack(const Entry& entry, std::span<std::byte> to) const {
         if (from.size() != to.size()) fail_entry(entry, "its size is wrong");
         if (!to.empty()) std::memcpy(to.data(), from.data(), to.size());
     } else {
-        struct Free {
-            void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
-        };
-        const std::unique_ptr<libdeflate_decompressor, Free> decompressor(libdeflate_alloc_decompressor());
-        if (!decompressor) throw std::bad_alloc();
+        const Decompressor decompressor = make_decompressor();
         std::byte nothing{};  // where nothing is unpacked, there is no memory either
         if (libdeflate_deflate_decompress(decompressor.get(), from.data(), from.size(), to.empty() ? &nothing : to.data(), to.size(),
                                           nullptr) != LIBDEFLATE_SUCCESS)

@@ -57,11 +57,18 @@ namespace {
 
 /// True if the scene has instances, and none of them has a volume or an area: an animation may begin with the scale 0, or hide all.
 bool has_no_size(const Scene& scene) {
+    std::vector<bool> has_extent;  // of each mesh
+    TimeCheck check;
+    for (const Mesh& mesh : scene.meshes) {
+        const auto differs = [&](std::uint32_t index) {
+            check();
+            return !(mesh.positions[index] == mesh.positions[mesh.indices[0]]);
+        };
+        has_extent.push_back(mesh.topology == Topology::points ? !mesh.indices.empty()
+                                                               : std::any_of(mesh.indices.begin(), mesh.indices.end(), differs));
+    }
     const auto is_flat = [&](const Instance& instance) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const auto differs = [&](std::uint32_t index) { return !(mesh.positions[index] == mesh.positions[mesh.indices[0]]); };
-        const bool has_extent = std::any_of(mesh.indices.begin(), mesh.indices.end(), differs);
-        if (mesh.indices.empty() || (mesh.topology != Topology::points && !has_extent)) return true;
+        if (!has_extent[static_cast<std::size_t>(instance.mesh)]) return true;
         const Mat4& m = instance.world_from_object;
         const Vec3d xy = cross(axis(m, 0), axis(m, 1)), yz = cross(axis(m, 1), axis(m, 2)), zx = cross(axis(m, 2), axis(m, 0));
         return (dot(xy, xy) + dot(yz, yz)) + dot(zx, zx) == 0.0;
@@ -74,6 +81,7 @@ LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_di
 }  // namespace
 
 LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
+    const WorkLimit work(allowed_work(options.limits, bytes.size()));
     LoadedScene loaded = read_at(bytes, base_dir, options);
     if (options.strict || options.time_s != 0.0 || options.keep_animations || loaded.animation < 0 || !has_no_size(loaded.scene))
         return loaded;
@@ -99,7 +107,6 @@ namespace {
 
 LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) try {
     check_threads(options);
-    const WorkLimit work(allowed_work(options.limits, bytes.size()));
     const std::unique_ptr<Document> document = open_document(bytes, base_dir, options);
     check_time();
     choose_scene(*document);

@@ -29,7 +29,7 @@ double angle_of(double sine, double cosine) {
 
 namespace {
 
-/// Of normals that count as equal: the triangles of a flat polygon share a normal. An angle of 0.08 degrees.
+/// Cosine of normals that count as equal, 0.08 degrees apart: the triangles of a flat polygon share a normal.
 constexpr double kFlatCosine = 1.0 - 1e-6;
 
 /// A file of so many triangles is a scan if its edges bend a little nearly everywhere: few are flat, and most bend by less than a crease.

@@ -5,10 +5,10 @@
 #include "apps/io/gltf/text/glb_container.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/models/model_text.hpp"
+#include "apps/io/models/obj_words.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 
 namespace halflit {
@@ -21,22 +21,13 @@ namespace {
 constexpr int kCertain = 1'000'000;
 constexpr int certain_if(bool is) { return is ? kCertain : 0; }
 
-/// Lines of OBJ: two points for a statement with its numbers, one for its other words.
 int like_obj(const FileBegin& begin) {
-    static constexpr std::string_view kWithNumbers[] = {"v", "vn", "vt", "vp", "f", "fo", "l", "p"};
-    static constexpr std::string_view kOthers[] = {"o",    "g",        "s",        "mtllib",     "usemtl", "newmtl", "mg",
-                                                   "lod",  "cstype",   "deg",      "bevel",      "surf",   "curv",   "curv2",
-                                                   "parm", "c_interp", "d_interp", "shadow_obj", "maplib", "usemap", "call"};
-    const auto is_in = [](std::string_view word, const auto& list) {
-        return std::find(std::begin(list), std::end(list), word) != std::end(list);
-    };
     int score = 0;
     for (const std::string_view line : begin.lines) {
         Words words(line);
-        const std::string_view word = words.next();
+        const ObjWord* const row = find_obj_word(words.next());
         const std::string_view value = words.next();
-        if (is_in(word, kWithNumbers) && parse_loosely(value.substr(0, value.find('/')))) score += 2;
-        if (is_in(word, kOthers)) ++score;
+        if (row != nullptr && (!row->with_number || parse_loosely(value.substr(0, value.find('/'))))) score += row->score;
     }
     return score;
 }
@@ -60,19 +51,6 @@ int like_stl_text(const FileBegin& begin) {
     return score;
 }
 
-/// A binary STL file that was cut off, or has more behind its triangles: a number of triangles, and a first triangle, that may be meant.
-bool looks_like_binary_stl(std::span<const std::byte> bytes) {
-    constexpr std::size_t kTitle = 80, kFirst = 84, kRecord = 50;
-    if (bytes.size() < kFirst + kRecord) return false;
-    const std::uint32_t count = u32_at(bytes, kTitle);
-    if ((count > 1u << 27 || count == 0) && (bytes.size() - kFirst) % kRecord != 0) return false;
-    for (std::size_t i = 0; i < 12; ++i) {  // the normal, of any length, then three corners
-        const float value = std::bit_cast<float>(u32_at(bytes, kFirst + 4 * i)), size = value < 0 ? -value : value;
-        if (!(size <= 1e9f) || (size > 0 && size < 1e-12f)) return false;
-    }
-    return true;
-}
-
 int like_stl(const FileBegin& begin) {
     if (fits_binary_stl(begin.bytes)) return kCertain;
     if (begin.is_text) return like_stl_text(begin);
@@ -89,9 +67,7 @@ int like_gltf(const FileBegin& begin) {
 
 bool is_zip(std::string_view text) { return text.starts_with("PK\3\4") || text.starts_with("PK\5\6"); }
 
-bool is_ply(std::string_view text) {
-    return text.size() > 3 && same_word(text.substr(0, 3), "ply") && (is_line_end(text[3]) || is_blank(text[3]));
-}
+bool is_ply(std::string_view text) { return text.size() > 3 && same_word(text.substr(0, 3), "ply") && is_space(text[3]); }
 
 /// A reader that does not need the file's name.
 template <auto kRead>
@@ -124,6 +100,12 @@ constexpr bool each_format_has_a_row() {
 static_assert(each_format_has_a_row());
 
 std::string_view begin_of(std::span<const std::byte> bytes) { return as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024))); }
+
+/// True for a ZIP file that is not 3MF, whose package may hold files of any kind.
+bool is_no_package(std::span<const std::byte> bytes) {
+    const auto names = [&](std::string_view part) { return as_text(bytes).find(part) != std::string_view::npos; };
+    return !names("[Content_Types].xml") && !names(".model");
+}
 
 /// True for a ZIP file whose first entry is a scene of USD.
 bool begins_with_usd(std::span<const std::byte> bytes) {
@@ -164,7 +146,7 @@ constexpr ForeignFormat kForeign[] = {
     {"Parasolid", "x_t x_b", "**ABCDEF", kByItsCad},
     {"ACIS", "sat sab", "", kByItsCad},
     {"OpenSCAD", "scad csg", "", "export it by OpenSCAD (openscad -o part.stl part.scad)"},
-    {"FreeCAD", "fcstd", "PK", kByItsCad, "Document.xml"},
+    {"FreeCAD", "fcstd", "PK", kByItsCad, "Document.xml", 0, is_no_package},
     {"Rhino", "3dm", "3D Geometry File Format", kByItsCad},
     {"SketchUp", "skp", "\xFF\xFE\xFF\x0E", kByItsCad},
     {"SolidWorks", "sldprt sldasm", "", kByItsCad},
@@ -179,7 +161,7 @@ constexpr ForeignFormat kForeign[] = {
     {"points as text", "xyz pts asc", "", kByCloud},
     {"3D Gaussians as SPLAT", "splat ksplat", "", kBySplat},
     {"3D Gaussians as SPZ", "spz", "NGSP", kBySplat},
-    {"3D Gaussians as SOG", "sog", "PK", kBySplat, ".webp"},
+    {"3D Gaussians as SOG", "sog", "PK", kBySplat, ".webp", 0, is_no_package},
     {"VTK", "vtk", "# vtk DataFile", kByParaView},
     {"VTK", "vtu vtp vti vts vtr vtm", "<", kByParaView, "<VTKFile"},
     {"Gmsh", "msh", "$MeshFormat", kByMeshio},

@@ -59,9 +59,9 @@ struct ForeignFormat {
     std::optional<LoadedScene> (*picture)(const ModelFile&, const LoadOptions&) = nullptr;
 };
 
-/// The format of a file that begins as one of a known format that is not read; null: none. Of several, that of the name's extension.
+/// The format of a file that begins as one of a known format that is not read; null: none. Among several, the one of the name's extension.
 [[nodiscard]] const ForeignFormat* find_foreign_format(const ModelFile& file);
-/// That of the name's extension alone, for files whose content says nothing.
+/// The format of the name's extension alone, for files whose content says nothing.
 [[nodiscard]] const ForeignFormat* find_foreign_name(std::string_view name);
 
 }  // namespace halflit::io::detail

@@ -171,7 +171,7 @@ void ModelBuilder::place_alone(Soup&& soup, std::span<const int> material_of) {
 }
 
 void ModelBuilder::place_points(Soup&& soup, AlphaMode alpha) {
-    // Of a file that was cut off there may be less.
+    // A file that was cut off may have fewer.
     if (soup.normals.size() != soup.positions.size()) soup.normals.clear();
     if (soup.colors.size() != soup.positions.size()) soup.colors.clear();
     if (static_cast<std::size_t>(std::count(soup.normals.begin(), soup.normals.end(), Vec3f{})) > soup.normals.size() / 10)
@@ -208,7 +208,7 @@ void ModelBuilder::place_points(Soup&& soup, AlphaMode alpha) {
     place({&index, 1}, "");
 }
 
-/// What an instance takes until it is drawn, at most; files may place a mesh by few bytes.
+/// Bytes that an instance takes until it is drawn, at most; files may place a mesh by few bytes.
 constexpr std::uint64_t kInstanceBytes = 4096;
 
 void ModelBuilder::place(std::span<const int> meshes, const std::string& name, const Affine& root_from_node) {

@@ -50,16 +50,20 @@ void make_linear(std::span<Vec4f> colors, double unit) {
     }
 }
 
-bool are_no_colors(ModelFormat format, std::span<const Vec4f> linear) {
-    if (linear.empty() || !std::all_of(linear.begin(), linear.end(), [&](const Vec4f& c) { return c == linear[0]; })) return false;
-    for (const WriterHabit& row : kNoColors) {
-        if (row.format != format) continue;
-        const double codes[3] = {static_cast<double>(row.value >> 16 & 255u), static_cast<double>(row.value >> 8 & 255u),
-                                 static_cast<double>(row.value & 255u)};
+bool drop_no_colors(ModelFormat format, Soup& soup, Document& document) {
+    const std::vector<Vec4f>& colors = soup.colors;
+    if (colors.empty() || !std::all_of(colors.begin(), colors.end(), [&](const Vec4f& c) { return c == colors[0]; })) return false;
+    const bool means_none = means_no_color(format, [&](std::uint32_t value) {
+        const double codes[3] = {static_cast<double>(value >> 16 & 255u), static_cast<double>(value >> 8 & 255u),
+                                 static_cast<double>(value & 255u)};
         const Vec4f none = linear_of_codes(codes);
-        if (linear[0].x == none.x && linear[0].y == none.y && linear[0].z == none.z) return true;
-    }
-    return false;
+        return colors[0].x == none.x && colors[0].y == none.y && colors[0].z == none.z;
+    });
+    if (!means_none) return false;
+    soup.colors.clear();
+    soup.color_of.clear();
+    document.warn("its colours are all black, as where none were set: drawn in grey");
+    return true;
 }
 
 Vec4f viridis(double t) {

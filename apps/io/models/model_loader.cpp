@@ -9,7 +9,6 @@
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/platform/files.hpp"
 #include "sh/time_limit.hpp"
-#include "shading/out_of_time.hpp"
 
 #include <fmt/format.h>
 
@@ -20,10 +19,11 @@ using io::folder_of, io::printable, io::read_file;
 
 namespace {
 
-/// Text of two bytes a character, which begins with a mark, as UTF-8; empty if it is none. A half of a pair becomes '?'.
-std::string utf8_of_utf16(std::span<const std::byte> bytes) {
+/// Text of two bytes a character, which begins with a mark, as UTF-8; empty if it is none, and by the strict rules. A half of a pair
+/// becomes '?'.
+std::string utf8_of_utf16(std::span<const std::byte> bytes, bool strict) {
     const auto at = [&](std::size_t i) { return std::to_integer<std::uint32_t>(bytes[i]); };
-    if (bytes.size() < 4 || fits_binary_stl(bytes)) return {};
+    if (strict || bytes.size() < 4 || fits_binary_stl(bytes)) return {};
     const bool little = at(0) == 0xFF && at(1) == 0xFE && at(3) == 0, big = at(0) == 0xFE && at(1) == 0xFF && at(2) == 0;
     if (!little && !big) return {};
     const auto unit = [&](std::size_t i) { return little ? at(i) | at(i + 1) << 8 : at(i) << 8 | at(i + 1); };
@@ -61,20 +61,20 @@ std::string name_of(const std::string& path) {
 }  // namespace
 
 Result<std::vector<std::string>> io::files_named_by(const std::string& path, const LoadOptions& options) {
-    const TimeLimit limit(options.limits.time_limit_s);
-    try {
+    return errors_of(path, options.limits.time_limit_s, [&]() -> Result<std::vector<std::string>> {
         const auto bytes = read_file(path, options.limits.max_file_bytes);
         if (!bytes) return std::vector<std::string>{};
-        const std::string text = utf8_of_utf16(*bytes);
+        const WorkLimit work(allowed_work(options.limits, bytes->size()));
+        const std::string text = utf8_of_utf16(*bytes, options.strict);
         const std::span<const std::byte> read = text.empty() ? std::span<const std::byte>(*bytes) : std::as_bytes(std::span(text));
         const FormatRow* const row = find_format(read);
         if (row == nullptr || row->files == nullptr) return std::vector<std::string>{};
-        return row->files({read, folder_of(path), name_of(path)}, options);
-    } catch (const LoadFailure&) {
-        return std::vector<std::string>{};
-    } catch (const OutOfTime& found) {
-        return fail_out_of_time(found, printable(path) + ": ");
-    }
+        try {
+            return row->files({read, folder_of(path), name_of(path)}, options);
+        } catch (const LoadFailure&) {
+            return std::vector<std::string>{};
+        }
+    });
 }
 
 namespace {
@@ -85,7 +85,7 @@ LoadedScene read_model(const ModelFile& file, const LoadOptions& options) {
     if (bytes.size() > options.limits.max_file_bytes)
         refuse("", fmt::format("has {} bytes, the limit is {} (max_file_bytes)", bytes.size(), options.limits.max_file_bytes),
                ErrorCode::limit);
-    if (const std::string text = options.strict ? std::string() : utf8_of_utf16(bytes); !text.empty()) {
+    if (const std::string text = utf8_of_utf16(bytes, options.strict); !text.empty()) {
         LoadedScene loaded = read_model({std::as_bytes(std::span(text)), file.folder, file.name}, options);
         loaded.warnings.emplace_back("the text has two bytes a character (UTF-16), read as such");
         return loaded;

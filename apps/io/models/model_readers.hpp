@@ -23,6 +23,8 @@ struct ModelFile {
 
 /// True if the length is exactly what the number of triangles of a binary STL file takes.
 [[nodiscard]] bool fits_binary_stl(std::span<const std::byte> bytes);
+/// A binary STL file that was cut off, or has more behind its triangles: a number of triangles, and a first triangle, that may be meant.
+[[nodiscard]] bool looks_like_binary_stl(std::span<const std::byte> bytes);
 
 /// True for the first word of an OFF file.
 [[nodiscard]] bool is_off_header(std::string_view word);

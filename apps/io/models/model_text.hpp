@@ -32,10 +32,12 @@ namespace halflit::io::detail {
     });
 }
 
+/// White space of any kind, and control characters.
+[[nodiscard]] constexpr bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 [[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// Of a decimal number other than 0: the power of ten of its first digit, within a few millions.
+/// The power of ten of the first digit of a decimal number other than 0, within a few millions.
 [[nodiscard]] inline long long exponent_of(std::string_view word) {
     const std::size_t e = std::min(word.find_first_of("eE"), word.size()), first = std::min(word.find_first_of("123456789"), e);
     const std::size_t point = std::min(word.find('.'), e);
@@ -99,18 +101,18 @@ public:
     /// The next word; empty at the end.
     std::string_view next() {
         std::size_t from = 0;
-        while (from < left_.size() && (is_blank(left_[from]) || is_line_end(left_[from]))) ++from;
+        while (from < left_.size() && is_space(left_[from])) ++from;
         std::size_t to = from;
-        while (to < left_.size() && !is_blank(left_[to]) && !is_line_end(left_[to])) ++to;
+        while (to < left_.size() && !is_space(left_[to])) ++to;
         const std::string_view word = left_.substr(from, to - from);
         left_.remove_prefix(to);
         return word;
     }
-    /// What has not been read yet, without blanks around it.
+    /// The text that has not been read yet, without blanks around it.
     [[nodiscard]] std::string_view rest() const {
         std::string_view text = left_;
-        while (!text.empty() && (is_blank(text.front()) || is_line_end(text.front()))) text.remove_prefix(1);
-        while (!text.empty() && (is_blank(text.back()) || is_line_end(text.back()))) text.remove_suffix(1);
+        while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+        while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
         return text;
     }
 

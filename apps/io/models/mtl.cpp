@@ -252,12 +252,17 @@ bool MtlText::take(std::string_view word, TextScanner& scanner) {
         const std::string_view name = unquoted(scanner.rest_of_line(true));
         builder_.document().geometry.take(sizeof(MtlMaterial) + name.size());
         materials_.emplace_back().name = name;
-        has_material_ = true;
+        at_ = materials_.size() - 1;
         return true;
     }
-    if (!has_material_) return false;
+    if (!at_) return false;
     builder_.document().geometry.take(scanner.rest_size());
-    return read_statement(word, scanner, materials_.back());
+    return read_statement(word, scanner, materials_[*at_]);
+}
+
+void add_pictures(const MtlMaterial& material, ModelBuilder& builder) {
+    for (const auto& row : kMaps)
+        if (const std::string& file = (material.*row.value).file; !file.empty()) builder.add_file(file);
 }
 
 void read_mtl(std::string_view text, const std::string& name, ModelBuilder& builder, std::vector<MtlMaterial>& materials) {
@@ -265,8 +270,8 @@ void read_mtl(std::string_view text, const std::string& name, ModelBuilder& buil
     MtlText reader(builder, materials);
     for (std::string_view word = scanner.word(); !word.empty(); word = scanner.word()) {
         if (!reader.take(word, scanner)) {
-            if (reader.has_material())
-                note_not_drawn(word, materials.back());
+            if (MtlMaterial* const material = reader.material())
+                note_not_drawn(word, *material);
             else
                 scanner.unknown(word, "newmtl");
         }

@@ -40,13 +40,17 @@ public:
     MtlText(ModelBuilder& builder, std::vector<MtlMaterial>& materials) : builder_(builder), materials_(materials) {}
     /// A statement, whose values `scanner` has next. False: it is none of MTL, or stands before a material.
     bool take(std::string_view word, TextScanner& scanner);
-    [[nodiscard]] bool has_material() const { return has_material_; }
+    /// The material that statements belong to; null: there was none yet.
+    [[nodiscard]] MtlMaterial* material() { return at_ ? &materials_[*at_] : nullptr; }
 
 private:
     ModelBuilder& builder_;
     std::vector<MtlMaterial>& materials_;
-    bool has_material_ = false;
+    std::optional<std::size_t> at_;  ///< of the last material that it began
 };
+
+/// Notes the pictures that a material names.
+void add_pictures(const MtlMaterial& material, ModelBuilder& builder);
 
 /// Appends the materials of an MTL file. `name` is for warnings. Wrong values are warned of, and left out.
 void read_mtl(std::string_view text, const std::string& name, ModelBuilder& builder, std::vector<MtlMaterial>& materials);

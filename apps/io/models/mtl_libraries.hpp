@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,8 +52,7 @@ public:
     }
     /// The scene's material; -1: none of that name.
     int find(const std::string& name) {
-        std::size_t found = find_named(name);
-        if (found == kNoMaterial && !builder_.options().strict && read_own()) found = find_named(name);
+        const std::size_t found = look_up(name);
         if (found == kNoMaterial) {
             builder_.document().warn(fmt::format("usemtl {}: no material of this name was read; drawn in grey", printable(name, 80)));
             return -1;
@@ -61,11 +61,14 @@ public:
         if (made < 0) made = make_material(materials_[found], builder_, pictures_);
         return made;
     }
+    /// Its number; kNoMaterial: none of that name, nor in the MTL file with the model's.
+    std::size_t look_up(const std::string& name) {
+        const std::size_t found = find_named(name);
+        return found == kNoMaterial && !builder_.options().strict && read_own() ? find_named(name) : found;
+    }
     /// Notes the files of all materials.
     void add_files() {
-        for (const MtlMaterial& m : materials_)
-            for (const MtlTexture* map : {&m.map_kd, &m.map_ks, &m.map_ke, &m.map_d, &m.map_pr, &m.map_pm, &m.bump, &m.norm})
-                if (!map->file.empty()) builder_.add_file(map->file);
+        for (const MtlMaterial& m : materials_) add_pictures(m, builder_);
     }
 
 private:
@@ -75,12 +78,15 @@ private:
     bool read(std::string_view name, bool quietly) {
         check_time();
         Document& document = builder_.document();
+        const std::string file = ModelBuilder::file_name(name);
+        if (const auto known = is_read_.find(file); known != is_read_.end()) return known->second;
         builder_.add_file(name);
-        const auto bytes = document.read_named(ModelBuilder::file_name(name));
+        const auto bytes = document.read_named(file);
         const std::string shown = "mtllib " + printable(name, 120);
         if (!bytes && bytes.error().code != ErrorCode::bad_input) refuse(shown, bytes.error().message, bytes.error().code);
         if (!bytes) {
             if (quietly) return false;
+            is_read_.emplace(file, false);
             if (!document.options.strict && read_own()) {
                 document.warn(fmt::format("{}: {}; \"{}\" is read", shown, bytes.error().message, printable(own_name_, 120)));
                 return true;
@@ -88,20 +94,20 @@ private:
             document.warn(fmt::format("{}: {}; its materials are drawn in grey", shown, bytes.error().message));
             return false;
         }
+        is_read_.emplace(file, true);
         take_in(*bytes, shown);
-        if (name == own_name_) own_is_read_ = true;
         return true;
     }
     /// Reads the MTL file that has the model's name, once. False where there is none.
     bool read_own() {
-        if (own_is_read_ || own_name_.empty()) return false;
-        own_is_read_ = true;
+        if (own_name_.empty() || own_is_tried_ || is_read_.contains(own_name_)) return false;
+        own_is_tried_ = true;
         builder_.add_file(own_name_);
         std::string found;
-        const LoadOptions& options = builder_.options();
-        const auto bytes = builder_.document().folder.read_like(own_name_, options.limits.max_file_bytes, found);
+        const auto bytes = builder_.document().read_named(own_name_, &found);
         if (!bytes && bytes.error().code != ErrorCode::bad_input) refuse("mtllib " + own_name_, bytes.error().message, bytes.error().code);
         if (!bytes) return false;
+        is_read_.emplace(own_name_, true);
         builder_.document().warn(fmt::format("materials are those of \"{}\", which has the model's name", printable(found, 120)));
         take_in(*bytes, "mtllib " + printable(found, 120));
         return true;
@@ -117,7 +123,8 @@ private:
         for (std::size_t i = first; i < materials_.size(); ++i) {
             number_of_.try_emplace(materials_[i].name, i);
             const auto [entry, is_new] = number_of_small_.try_emplace(small(materials_[i].name), i);
-            if (!is_new) entry->second = kNoMaterial;  // several
+            if (!is_new && entry->second != kNoMaterial && materials_[entry->second].name != materials_[i].name)
+                entry->second = kNoMaterial;  // several
         }
     }
     /// By its name, by its name up to a comment, or the only one whose letters differ in case alone.
@@ -142,7 +149,8 @@ private:
     std::unordered_map<std::string, std::size_t> number_of_, number_of_small_;
     std::optional<MtlText> within_;  ///< of statements in the OBJ file
     std::string own_name_;
-    bool own_is_read_ = false;
+    std::map<std::string, bool> is_read_;  ///< of libraries by their names; false: it is missing, of which it was warned
+    bool own_is_tried_ = false;
 };
 
 }  // namespace halflit::io::detail

@@ -6,6 +6,7 @@
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/models/mtl_libraries.hpp"
 #include "apps/io/models/obj_strokes.hpp"
+#include "apps/io/models/obj_words.hpp"
 #include "apps/io/models/polygon.hpp"
 #include "apps/io/models/text_scanner.hpp"
 #include "sh/time_limit.hpp"
@@ -16,6 +17,7 @@
 #include <charconv>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace halflit::io::detail {
 
@@ -25,11 +27,6 @@ namespace {
 struct Corner {
     std::uint32_t position, uv, normal;
 };
-
-/// Statements that do not change the picture.
-constexpr std::string_view kPassedOver[] = {"g",        "vp",       "mg",         "lod",       "cstype", "deg",    "bmat", "step",  "bevel",
-                                            "parm",     "trim",     "hole",       "scrv",      "sp",     "end",    "con",  "ctech", "stech",
-                                            "c_interp", "d_interp", "shadow_obj", "trace_obj", "maplib", "usemap", "call", "csh"};
 
 class ObjReader {
 public:
@@ -45,7 +42,7 @@ public:
             read_statement(word);
             scanner_.skip_line();
         }
-        read_late_faces();
+        read_late();
         finish_colors();
         if (soup_.position_of.empty() && strokes_.empty() && bad_faces_ == 0 && !soup_.positions.empty()) {
             if (builder_.options().strict) refuse("", "it has vertices but no faces, lines or points");
@@ -83,14 +80,18 @@ public:
 
     void add_files() {
         for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) {
-            if (word == "mtllib") libraries_.add(scanner_.rest_of_line());
+            const ObjWord* const row = find_obj_word(word);
+            if (row == nullptr || row->statement == ObjStatement::of_mtl) libraries_.take_statement(word, scanner_);
+            if (row != nullptr && row->statement == ObjStatement::library) libraries_.add(scanner_.rest_of_line());
+            if (row != nullptr && row->statement == ObjStatement::material)
+                libraries_.look_up(std::string(unquoted(scanner_.rest_of_line(true))));
             scanner_.skip_line();
         }
         libraries_.add_files();
     }
 
 private:
-    /// What becomes one mesh: the faces of an object with one material.
+    /// Faces that become one mesh: those of an object with one material.
     struct Part {
         std::uint32_t object;
         int material;
@@ -98,36 +99,55 @@ private:
     };
 
     void read_statement(std::string_view word) {
-        if (word == "v") return read_position();
-        if (word == "vt") {
-            const double u = scanner_.number_in_line();
-            double v = 0;
-            scanner_.take_number(v);
-            builder_.take_entries<Vec2f>(1);
-            const Vec3d uv{u, v, 0};
-            const Vec3f rounded = fits_float(uv) ? rounded_near(uv, {}) : Vec3f{};
-            return soup_.uvs.push_back({rounded.x, 1.0f - rounded.y});
+        const ObjWord* const row = find_obj_word(word);
+        switch (row == nullptr ? ObjStatement::of_mtl : row->statement) {
+            case ObjStatement::position:
+                return read_position();
+            case ObjStatement::uv:
+                return read_uv();
+            case ObjStatement::normal:
+                builder_.take_entries<Vec3f>(1);
+                return soup_.normals.push_back(rounded_near(read_vector(), {}));
+            case ObjStatement::face:
+                return read_element(Topology::triangles);
+            case ObjStatement::lines:
+                return read_element(Topology::lines);
+            case ObjStatement::points:
+                return read_element(Topology::points);
+            case ObjStatement::object:
+                return begin_object(scanner_.rest_of_line(true));
+            case ObjStatement::smoothing:
+                return read_smoothing(scanner_.word_in_line());
+            case ObjStatement::material:
+                return use_material(std::string(unquoted(scanner_.rest_of_line(true))));
+            case ObjStatement::library:
+                return libraries_.add(scanner_.rest_of_line());
+            case ObjStatement::free_form:
+                ++free_form_;
+                return;
+            case ObjStatement::passed_over:
+                return;
+            case ObjStatement::of_mtl:
+                if (!libraries_.take_statement(word, scanner_)) scanner_.unknown(word, "a statement of OBJ");
+                return;
         }
-        if (word == "vn") {
-            builder_.take_entries<Vec3f>(1);
-            return soup_.normals.push_back(rounded_near(read_vector(), {}));
-        }
-        if (word == "f" || word == "fo") return read_face(scanner_);
-        if (word == "usemtl") return use_material(std::string(unquoted(scanner_.rest_of_line(true))));
-        if (word == "mtllib") return libraries_.add(scanner_.rest_of_line());
-        if (word == "o") {
-            const std::string_view name = scanner_.rest_of_line(true);
-            builder_.document().geometry.take(sizeof(std::string) + name.size());
-            objects_.emplace_back(name);
-            part_ = kNone;
-            return;
-        }
-        if (word == "s") return read_smoothing(scanner_.word_in_line());
-        if (word == "l") return read_stroke(Topology::lines);
-        if (word == "p") return read_stroke(Topology::points);
-        if (word == "curv" || word == "curv2" || word == "surf") return void(++free_form_);
-        if (std::find(std::begin(kPassedOver), std::end(kPassedOver), word) != std::end(kPassedOver)) return;
-        if (!libraries_.take_statement(word, scanner_)) scanner_.unknown(word, "a statement of OBJ");
+    }
+
+    void read_uv() {
+        const double u = scanner_.number_in_line();
+        double v = 0;
+        scanner_.take_number(v);
+        builder_.take_entries<Vec2f>(1);
+        const Vec3d uv{u, v, 0};
+        const Vec3f rounded = fits_float(uv) ? rounded_near(uv, {}) : Vec3f{};
+        soup_.uvs.push_back({rounded.x, 1.0f - rounded.y});
+    }
+
+    void begin_object(std::string_view name) {
+        builder_.document().geometry.take(sizeof(std::string) + name.size());
+        object_ = static_cast<std::uint32_t>(objects_.size());
+        objects_.emplace_back(name);
+        part_ = kNone;
     }
 
     Vec3d read_vector() {
@@ -173,10 +193,7 @@ private:
             const double unit = unit_of_colors(soup_.colors, false);
             make_linear(soup_.colors, unit);
         }
-        if (are_no_colors(ModelFormat::obj, soup_.colors)) {
-            soup_.colors.clear();
-            builder_.document().warn("its colours are all black, as where none were set: drawn in grey");
-        }
+        drop_no_colors(ModelFormat::obj, soup_, builder_.document());
         if (soup_.colors.empty()) return;
         for (std::size_t i = 0; i < soup_.position_of.size(); ++i) {
             const std::uint32_t position = soup_.position_of[i];
@@ -205,10 +222,9 @@ private:
         smoothing_ = group ? std::min(*group, kNone - 1) : 0;  // "off"
     }
 
-    void use_material(std::string name) {
-        if (name == material_name_ && has_material_name_) return;
+    void use_material(std::optional<std::string> name) {
+        if (name == material_name_) return;
         material_name_ = std::move(name);
-        has_material_name_ = true;
         material_is_known_ = false;
         part_ = kNone;
     }
@@ -216,13 +232,12 @@ private:
     /// The part of the next face.
     std::uint32_t current_part() {
         if (part_ != kNone) return part_;
-        if (!material_is_known_) material_ = has_material_name_ ? libraries_.find(material_name_) : -1;
+        if (!material_is_known_) material_ = material_name_ ? libraries_.find(*material_name_) : -1;
         material_is_known_ = true;
-        const auto object = static_cast<std::uint32_t>(objects_.size() - 1);
-        const auto [entry, is_new] = part_at_.try_emplace({object, material_}, static_cast<std::uint32_t>(parts_.size()));
+        const auto [entry, is_new] = part_at_.try_emplace({object_, material_}, static_cast<std::uint32_t>(parts_.size()));
         if (is_new) {
             builder_.document().geometry.take(128);
-            parts_.push_back({object, material_, false});
+            parts_.push_back({object_, material_, false});
         }
         return part_ = entry->second;
     }
@@ -267,85 +282,74 @@ private:
         return true;
     }
 
-    /// A face whose vertices come after it.
-    struct LateFace {
-        std::string_view corners;
-        std::string material;
-        bool has_material;
-        std::uint32_t smoothing;
+    /// A face, polyline or points whose vertices come after it.
+    struct Late {
+        TextScanner::Mark corners;
+        Topology topology;
+        std::uint32_t object, smoothing;
+        std::optional<std::string> material;
     };
-    [[nodiscard]] bool is_late(TextScanner& words) const {
+    /// True if vertices of the corners that come next are not there yet.
+    [[nodiscard]] bool is_late() {
         bool late = false;
-        for (std::string_view word = words.word_in_line(); !word.empty(); word = words.word_in_line()) {
+        for (std::string_view word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
             const auto index = parse_whole<std::int64_t>(word.substr(0, word.find('/')));
             if (!index || *index <= 0) return false;  // those that count back are known
             late = late || static_cast<std::uint64_t>(*index) > soup_.positions.size();
         }
         return late;
     }
-    void put_off(TextScanner& words) {
-        const std::string_view before = words.left();
-        words.skip_line();
-        builder_.document().geometry.take(sizeof(LateFace) + material_name_.size());
-        late_.push_back({before.substr(0, before.size() - words.left().size()), material_name_, has_material_name_, smoothing_});
-    }
-    void read_late_faces() {
+    void read_late() {
         late_are_read_ = true;
         for (std::size_t i = 0; i < late_.size(); ++i) {
             if (i % 65536 == 0) check_time();
-            if (late_[i].has_material) use_material(late_[i].material);
+            scanner_.go_back(late_[i].corners);
+            object_ = late_[i].object;
+            part_ = kNone;
             smoothing_ = late_[i].smoothing;
-            TextScanner words(late_[i].corners, builder_.document(), "", true);
-            read_face(words);
+            use_material(std::move(late_[i].material));
+            read_element(late_[i].topology);
         }
         late_.clear();
     }
 
-    /// A polyline, or points.
-    void read_stroke(Topology topology) {
-        std::vector<std::uint32_t> corners;
+    /// A face, polyline or points.
+    void read_element(Topology topology) {
+        const TextScanner::Mark begin = scanner_.mark();
+        const std::size_t lost = lost_attributes_;
+        corners_.clear();
         for (std::string_view word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
-            Corner corner{};
-            if (!read_corner(word, corner)) return void(++bad_faces_);
-            corners.push_back(corner.position);
+            if (read_corner(word, corners_.emplace_back())) continue;
+            scanner_.go_back(begin);
+            if (late_are_read_ || !is_late()) return void(++bad_faces_);
+            lost_attributes_ = lost;
+            builder_.document().geometry.take(sizeof(Late) + (material_name_ ? material_name_->size() : 0));
+            return late_.push_back({begin, topology, object_, smoothing_, material_name_});
         }
-        if (topology == Topology::lines && corners.size() < 2) {
-            if (builder_.options().strict) refuse(scanner_.where(), "a line has one corner, expected at least 2");
+        const std::size_t least = topology == Topology::triangles ? 3 : topology == Topology::lines ? 2 : 0;
+        if (corners_.size() < least) {
+            if (builder_.options().strict)
+                refuse(scanner_.where(), fmt::format("a {} has {} corners, expected at least {}",
+                                                     topology == Topology::triangles ? "face" : "line", corners_.size(), least));
             return void(++short_faces_);
         }
-        strokes_.add(current_part(), topology, corners);
+        if (topology == Topology::triangles) return add_face();
+        positions_.clear();
+        for (const Corner& corner : corners_) positions_.push_back(corner.position);
+        strokes_.add(current_part(), topology, positions_);
     }
 
-    void read_face(TextScanner& words) {
-        face_.clear();
+    void add_face() {
         points_.clear();
         triangles_.clear();
-        const TextScanner::Mark begin = words.mark();
-        const std::size_t lost = lost_attributes_;
-        for (std::string_view word = words.word_in_line(); !word.empty(); word = words.word_in_line()) {
-            Corner corner{};
-            if (!read_corner(word, corner)) {
-                words.go_back(begin);
-                if (late_are_read_ || !is_late(words)) return void(++bad_faces_);
-                words.go_back(begin);
-                lost_attributes_ = lost;
-                return put_off(words);
-            }
-            face_.push_back(corner);
-            points_.push_back(soup_.positions[corner.position]);
-        }
-        if (face_.size() < 3) {
-            if (builder_.options().strict)
-                refuse(scanner_.where(), fmt::format("a face has {} corners, expected at least 3", face_.size()));
-            return void(++short_faces_);
-        }
+        for (const Corner& corner : corners_) points_.push_back(soup_.positions[corner.position]);
         const std::uint32_t part = current_part();
-        builder_.take_triangles(face_.size() - 2);
+        builder_.take_triangles(corners_.size() - 2);
         cutter_.cut(points_, triangles_);
         soup_.part_of.insert(soup_.part_of.end(), triangles_.size() / 3, part);
         soup_.smoothing_of.insert(soup_.smoothing_of.end(), triangles_.size() / 3, smoothing_);
         for (const std::uint32_t i : triangles_) {
-            const Corner& corner = face_[i];
+            const Corner& corner = corners_[i];
             soup_.position_of.push_back(corner.position);
             soup_.uv_of.push_back(corner.uv);
             soup_.normal_of.push_back(corner.normal);
@@ -365,14 +369,14 @@ private:
     std::vector<std::string> objects_{""};
     std::vector<Part> parts_;
     std::map<std::pair<std::uint32_t, int>, std::uint32_t> part_at_;
-    std::string material_name_;
-    bool has_material_name_ = false, material_is_known_ = true;
+    std::optional<std::string> material_name_;
+    bool material_is_known_ = true;
     int material_ = -1;
-    std::uint32_t part_ = kNone, smoothing_ = Soup::kByCrease;
-    std::vector<Corner> face_;
+    std::uint32_t object_ = 0, part_ = kNone, smoothing_ = Soup::kByCrease;
+    std::vector<Corner> corners_;
     std::vector<Vec3d> points_;
-    std::vector<std::uint32_t> triangles_;
-    std::vector<LateFace> late_;
+    std::vector<std::uint32_t> triangles_, positions_;
+    std::vector<Late> late_;
     bool late_are_read_ = false;
     std::size_t free_form_ = 0, bad_faces_ = 0, short_faces_ = 0, lost_attributes_ = 0;
 };

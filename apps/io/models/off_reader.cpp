@@ -109,8 +109,6 @@ public:
         }
         finish_colors();
         scanner_.warn();
-        if (long_rows_ > 0)
-            builder_.document().warn(fmt::format("{} lines have more values than the header says, which are passed over", long_rows_));
         if (bad_faces_ > 0) builder_.document().warn(fmt::format("{} faces with indices out of range left out", bad_faces_));
     }
 
@@ -174,18 +172,15 @@ private:
             double color[4] = {1, 1, 1, 1};
             for (std::size_t c = 0; c < channels && has_colors_; ++c) color[c] = values_.number();
             const double u = has_uvs_ ? values_.number() : 0, v = has_uvs_ ? values_.number() : 0;
-            if (more_in_line(line) > 0) {
-                ++long_rows_;
-                scanner_.skip_line();
-            }
+            if (more_in_line(line) > 0) scanner_.pass_long_row();
             soup_.positions.push_back(position);
             if (has_normals_) soup_.normals.push_back(rounded_near(normal, {}));
             if (has_uvs_) soup_.uvs.push_back({static_cast<float>(u), static_cast<float>(1.0 - v)});
             if (!has_colors_ || channels == 1) continue;
             soup_.colors.push_back(rounded(color));
+            vertex_colors_ = soup_.colors.size();
         }
         has_colors_ = has_colors_ && channels > 1;
-        vertex_colors_ = soup_.colors.size();
     }
     static Vec4f rounded(const double (&color)[4]) {
         return {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), static_cast<float>(color[3])};
@@ -203,10 +198,7 @@ private:
             if (most_code_ == 1) c = {c.x > 0 ? 1.0f : 0.0f, c.y > 0 ? 1.0f : 0.0f, c.z > 0 ? 1.0f : 0.0f, 1};  // shares: 1 0 0 is red
             c.w = 1;
         }
-        if (!are_no_colors(ModelFormat::off, soup_.colors)) return;
-        builder_.document().warn("its colours are all black, as where none were set: drawn in grey");
-        soup_.colors.clear();
-        soup_.color_of.clear();
+        drop_no_colors(ModelFormat::off, soup_, builder_.document());
     }
 
     /// Three or four numbers up to the line's end: whole ones are sRGB codes, others shares. Nothing: another number of them, or a face.
@@ -288,7 +280,7 @@ private:
     Soup soup_;
     bool has_normals_ = false, has_colors_ = false, has_uvs_ = false;  ///< of vertices
     double most_code_ = 0;  ///< of faces' colours, all of which are whole numbers; 255: some are not
-    std::size_t vertex_colors_ = 0, bad_faces_ = 0, long_rows_ = 0;
+    std::size_t vertex_colors_ = 0, bad_faces_ = 0;
     PolygonCutter cutter_;
     std::vector<std::uint32_t> corners_, triangles_;
     std::vector<Vec3d> points_;

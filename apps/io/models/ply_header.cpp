@@ -26,7 +26,7 @@ std::optional<PlyType> type_named(std::string_view name) {
     return std::nullopt;
 }
 
-/// Of text, any type will do: its numbers are read as they are written.
+/// A text may name any type: its numbers are read as they are written.
 PlyType read_type(std::string_view name, const TextScanner& scanner, PlyFormat format) {
     const auto type = type_named(name);
     if (!type && (format != PlyFormat::ascii || name.empty())) scanner.refuse_word(name, "a type such as float or uchar");

@@ -134,7 +134,7 @@ struct Layout {
         }
     }
     [[nodiscard]] bool has_channels() const { return has[red] && has[green] && has[blue]; }
-    /// Of 3D Gaussians: the part of their light that is the same from all sides.
+    /// True for 3D Gaussians, whose colour is the part of their light that is the same from all sides.
     [[nodiscard]] bool is_splat() const { return has[harmonic_0] && has[harmonic_1] && has[harmonic_2] && has[opacity]; }
     [[nodiscard]] bool has_color() const { return has_channels() || has[packed] || is_splat() || has_label(); }
     /// Classes or objects by number, where nothing else has colours.
@@ -201,8 +201,6 @@ public:
         is_cloud_ = is_cloud_ || (cut_off_ && soup_.position_of.empty() && !soup_.positions.empty());
         Document& document = builder_.document();
         values_.warn();
-        if (values_.long_rows() > 0)
-            document.warn(fmt::format("{} lines have more values than the header says, which are passed over", values_.long_rows()));
         if (values_.has_more()) document.warn("there is more behind the last element, which is not drawn");
         if (short_polygons_ > 0) document.warn(fmt::format("{} polygons of less than three corners left out", short_polygons_));
         if (bad_texcoords_ > 0)
@@ -388,14 +386,8 @@ private:
         }
         if (has_color) layout.make_linear(soup_.colors);
         if (layout.has_label()) builder_.document().warn("has no colours: drawn by its labels, a colour for each");
-        if (are_no_colors(ModelFormat::ply, soup_.colors)) drop_colors();
+        if (drop_no_colors(ModelFormat::ply, soup_, builder_.document())) vertex_has_color_ = false;
         if (by_scalar) color_by_scalar(layout.scalar_name);
-    }
-
-    void drop_colors() {
-        soup_.colors.clear();
-        vertex_has_color_ = false;
-        builder_.document().warn("its colours are all black, as where none were set: drawn in grey");
     }
 
     /// Goes past an element, without looking at its values.
@@ -424,7 +416,10 @@ private:
                 fmt::format("has {} pictures, and its faces do not say which one they show: all show the first", header_.textures.size()));
         Row row{};
         const std::size_t first_color = soup_.colors.size();
-        const auto finish_colors = [&] { layout.make_linear(std::span(soup_.colors).subspan(first_color)); };
+        const auto finish_colors = [&] {
+            layout.make_linear(std::span(soup_.colors).subspan(first_color));
+            if (!vertex_has_color_) drop_no_colors(ModelFormat::ply, soup_, builder_.document());
+        };
         try {
             for (rows_ = 0; rows_ < count; ++rows_) {
                 if (rows_ % 65536 == 0) check_time();

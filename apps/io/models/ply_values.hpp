@@ -33,10 +33,8 @@ public:
         if (strict_ || format_ != PlyFormat::ascii) return;
         const std::size_t more = words_.words_in_line(taken_);
         if (more == 0 || more >= taken_) return;
-        words_.skip_line();
-        ++long_rows_;
+        words_.pass_long_row();
     }
-    [[nodiscard]] std::size_t long_rows() const { return long_rows_; }
 
     double next(PlyType type) {
         if (format_ != PlyFormat::ascii) return next_binary(type);
@@ -55,7 +53,7 @@ public:
         const double length = next(list.count_type);
         const bool is_text = format_ == PlyFormat::ascii;
         if (!(length >= 0)) refuse(where(), fmt::format("a list's length is {}", length));
-        if (length > static_cast<double>((is_text ? words_.left().size() : binary_.size() / size_of(list.type)) + 1)) words_.end();
+        if (length > static_cast<double>((is_text ? words_.left().size() : binary_.size() / size_of(list.type)) + 1)) end();
         return static_cast<std::size_t>(length);
     }
     /// The number of elements, or as many as the file can hold at most; if strict, refuses a file that cannot hold them.
@@ -84,14 +82,14 @@ public:
         return true;
     }
     [[nodiscard]] std::string where() const { return format_ == PlyFormat::ascii ? words_.where() : ""; }
-    /// Warns of words that are no numbers.
+    /// Warns of words that are no numbers, and of long rows.
     void warn() { words_.warn(); }
 
 private:
     /// Goes to the next word that is not of a comment, which some programs write into the body.
     void find_word() {
         for (;; words_.skip_line()) {
-            if (!words_.go_to_word()) words_.end();
+            if (!words_.go_to_word()) end();
             if (!words_.is_at_line_begin() || lower(words_.left()[0]) < 'a') break;
             const std::string_view word = words_.next_in_line();
             if (!same_word(word, "comment") && !same_word(word, "obj_info")) break;
@@ -99,12 +97,15 @@ private:
         ++taken_;
     }
 
+    [[noreturn]] void end() const {
+        if (format_ == PlyFormat::ascii) words_.end();
+        if (strict_) refuse("", "the file ends before its last element: it was cut off");
+        throw CutOff{};
+    }
+
     template <class T>
     T take_bytes() {
-        if (binary_.size() < sizeof(T)) {
-            if (strict_) refuse("", "the file ends before its last element: it was cut off");
-            throw CutOff{};
-        }
+        if (binary_.size() < sizeof(T)) end();
         std::array<char, sizeof(T)> bytes;
         std::memcpy(bytes.data(), binary_.data(), sizeof(T));
         binary_.remove_prefix(sizeof(T));
@@ -139,7 +140,7 @@ private:
 
     bool strict_;
     PlyFormat format_;
-    std::size_t taken_ = 0, long_rows_ = 0;
+    std::size_t taken_ = 0;
     TextScanner words_;
     std::string_view binary_;
 };

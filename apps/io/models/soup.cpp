@@ -63,7 +63,7 @@ std::size_t remove_bad(Soup& soup, const std::vector<std::uint32_t>& place) {
     return not_finite;
 }
 
-/// Of each corner, the lowest one that is the same vertex: of the same place, part, normal, texture coordinates and colour.
+/// For each corner, the lowest one that is the same vertex: of the same place, part, normal, texture coordinates and colour.
 std::vector<std::uint32_t> find_vertices(const Soup& soup, const CornersOfPlaces& corners, int threads) {
     struct Key {
         std::uint32_t part, normal, uv, color, corner;

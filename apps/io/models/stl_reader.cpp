@@ -20,7 +20,7 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr std::size_t kHeader = 84, kRecord = 50;  // bytes: a title and the number of triangles, then one record for each
+constexpr std::size_t kTitle = 80, kHeader = 84, kRecord = 50;  // bytes: of a title, with the number of triangles, of each triangle
 
 // ---- text --------------------------------------------------------------------------------------------------------------
 
@@ -52,7 +52,7 @@ public:
 private:
     enum class Keyword : std::uint8_t { none, solid, facet, outer, vertex, endloop, endfacet, endsolid, count };
     static constexpr std::size_t index(Keyword keyword) { return static_cast<std::size_t>(keyword); }
-    /// What may come next, for the strict rules.
+    /// Words that may come next, for the strict rules.
     static constexpr const char* kAfter[] = {"solid",    "facet or endsolid", "outer loop", "vertex", "vertex or endloop",
                                              "endfacet", "facet or endsolid", "solid"};
 
@@ -188,7 +188,7 @@ public:
         const std::size_t at = title.find("COLOR=");
         is_magics_ = at != std::string_view::npos && at + 10 <= title.size();
         for (std::size_t i = 0; i < 32; ++i) linear_[i] = linear_color(static_cast<double>(i) / 31.0);
-        has_none_ = means_no_color(ModelFormat::stl, common);
+        has_none_ = means_no_color(ModelFormat::stl, [&](std::uint32_t value) { return value == common; });
         const auto channel = [&](std::size_t c) { return static_cast<std::uint8_t>(title[at + 6 + c]); };
         if (!is_magics_ || (std::uint32_t{channel(0)} << 16 | std::uint32_t{channel(1)} << 8 | channel(2)) == kDefaultStlHeader) return;
         has_whole_ = true;
@@ -219,7 +219,7 @@ private:
 Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& has_colors) {
     if (bytes.size() < kHeader)
         refuse("", fmt::format("a binary STL file has at least {} bytes, found {}: it was cut off", kHeader, bytes.size()));
-    const std::uint64_t given = u32_at(bytes, 80), held = (bytes.size() - kHeader) / kRecord;
+    const std::uint64_t given = u32_at(bytes, kTitle), held = (bytes.size() - kHeader) / kRecord;
     std::uint64_t count = given;
     if (bytes.size() < kHeader + kRecord * given) {
         if (builder.options().strict)
@@ -241,7 +241,7 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
     std::uint32_t common = count == 0 ? kNone : attribute_of(0);
     for (std::size_t t = 1; t < count && common != kNone; ++t)
         if (attribute_of(t) != common) common = kNone;
-    const StlColors colors(as_text(bytes.first(80)), common);
+    const StlColors colors(as_text(bytes.first(kTitle)), common);
     has_colors = colors.has_whole() || (common != kNone && colors.number_of(static_cast<std::uint16_t>(common)) != kNone);
     for (std::size_t t = 0; t < count && common == kNone && !has_colors; ++t) has_colors = colors.number_of(attribute_of(t)) != kNone;
 
@@ -280,7 +280,18 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
 }  // namespace
 
 bool fits_binary_stl(std::span<const std::byte> bytes) {
-    return bytes.size() >= kHeader && bytes.size() == kHeader + std::uint64_t{kRecord} * u32_at(bytes, 80);
+    return bytes.size() >= kHeader && bytes.size() == kHeader + std::uint64_t{kRecord} * u32_at(bytes, kTitle);
+}
+
+bool looks_like_binary_stl(std::span<const std::byte> bytes) {
+    if (bytes.size() < kHeader + kRecord) return false;
+    const std::uint32_t count = u32_at(bytes, kTitle);
+    if ((count > 1u << 27 || count == 0) && (bytes.size() - kHeader) % kRecord != 0) return false;
+    for (std::size_t i = 0; i < 12; ++i) {  // the normal, of any length, then three corners
+        const float value = std::bit_cast<float>(u32_at(bytes, kHeader + 4 * i)), size = value < 0 ? -value : value;
+        if (!(size <= 1e9f) || (size > 0 && size < 1e-12f)) return false;
+    }
+    return true;
 }
 
 LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& /*base_dir*/, const LoadOptions& options) {

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace halflit::io::detail {
 
 void TextScanner::pass_comment() {
     const char* const from = at_;
-    while (at_ < end_ && !is_end(*at_)) ++at_;
+    while (at_ < end_ && !is_line_end(*at_)) ++at_;
     if (kept_ == nullptr) return;
     const std::string_view comment(from, static_cast<std::size_t>(at_ - from));
     if (!comment.starts_with(kept_mark_)) return;
@@ -21,13 +22,24 @@ void TextScanner::pass_comment() {
 }
 
 std::string_view TextScanner::rest_of_line(bool with_marks) {
-    while (with_marks && at_ < end_ && is_space(*at_) && !is_end(*at_)) ++at_;
+    while (with_marks && at_ < end_ && is_space(*at_) && !is_line_end(*at_)) ++at_;
     if (!with_marks && !find_word()) return {};
-    const char* const from = at_;
+    joined_.clear();
+    const char* from = at_;
     const auto is_mark = [&](const char* at) { return *at == '#' && !with_marks && (at == from || is_space(at[-1])); };
-    while (at_ < end_ && !is_end(*at_) && !is_mark(at_)) ++at_;
+    while (at_ < end_ && !is_line_end(*at_) && !is_mark(at_)) {
+        if (!is_joined_end(at_)) {
+            ++at_;
+            continue;
+        }
+        joined_.append(from, at_) += ' ';
+        ++at_;
+        pass_end();
+        from = at_;
+    }
     taken_in_line_ = true;
     std::string_view text(from, static_cast<std::size_t>(at_ - from));
+    if (!joined_.empty()) text = joined_.append(text);
     while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
     while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
     skip_line();
@@ -36,13 +48,13 @@ std::string_view TextScanner::rest_of_line(bool with_marks) {
 
 std::size_t TextScanner::rest_size() const {
     const char* behind = at_;
-    while (behind < end_ && !is_end(*behind)) ++behind;
+    while (behind < end_ && !is_line_end(*behind)) behind = is_joined_end(behind) ? behind_end(behind + 1) : behind + 1;
     return static_cast<std::size_t>(behind - at_);
 }
 
 void TextScanner::skip_line() {
     while (find_word()) {
-        while (at_ < end_ && !is_end(*at_) && !is_joined_end(at_) && *at_ != '#') ++at_;
+        while (at_ < end_ && !is_line_end(*at_) && !is_joined_end(at_) && *at_ != '#') ++at_;
         if (at_ < end_ && *at_ == '#' && !is_space(at_[-1])) ++at_;  // inside a word
     }
 }
@@ -50,9 +62,11 @@ void TextScanner::skip_line() {
 std::size_t TextScanner::words_in_line(std::size_t most) const {
     std::size_t count = 0;
     bool in_word = false;
-    for (const char* at = at_; at < end_ && count < most && !is_end(*at) && (in_word || *at != '#'); ++at) {
-        if (!is_space(*at) && !in_word) ++count;
-        in_word = !is_space(*at);
+    for (const char* at = at_; at < end_ && count < most && !is_line_end(*at) && (in_word || *at != '#');) {
+        const bool is_joined = is_joined_end(at), is_part = !is_joined && !is_space(*at);
+        if (is_part && !in_word) ++count;
+        in_word = is_part;
+        at = is_joined ? behind_end(at + 1) : at + 1;
     }
     return count;
 }
@@ -109,7 +123,7 @@ void TextScanner::refuse_word(std::string_view found, std::string_view expected)
 }
 
 std::string TextScanner::where() const {
-    const bool is_behind = at_ == end_ && at_ > begin_ && is_end(at_[-1]);  // the last line
+    const bool is_behind = at_ == end_ && at_ > begin_ && is_line_end(at_[-1]);  // the last line
     return fmt::format("{}line {}", name_, line_ - (is_behind ? 1 : 0));
 }
 
@@ -121,6 +135,8 @@ void TextScanner::warn() {
                                  noted == &unknown_ ? "passed over" : "what needs the value is left out");
         noted->count = 0;
     }
+    if (const std::size_t rows = std::exchange(long_rows_, 0); rows > 0)
+        document_->warn(fmt::format("{} lines have more values than the header says, which are passed over", rows));
 }
 
 }  // namespace halflit::io::detail

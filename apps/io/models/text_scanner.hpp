@@ -1,6 +1,6 @@
 // Words and numbers of the text formats: STL, OBJ, MTL, OFF and PLY are read by one rule. White space of any kind parts words, `#` at the
-// begin of a word begins a comment up to the line's end, numbers may have commas or semicolons behind them. A word that a format does not
-// have is passed over, and a value that is no number is not a number: one warning for each kind, with the first place. `--strict` refuses.
+// start of a word begins a comment up to the line's end, numbers may have commas or semicolons behind them. A word that a format does not
+// have is passed over, and a value that is no number is read as NaN: one warning for each kind, with the first place. `--strict` refuses.
 #pragma once
 
 #include "apps/io/gltf/file/document.hpp"
@@ -52,11 +52,14 @@ public:
         return {at_, static_cast<std::size_t>(behind - at_)};
     }
     /// The rest of the line without blanks around it, up to a comment; with_marks: with what stands behind a `#`, which names may have.
+    /// Joined lines are one, with a blank between them, until the next call.
     std::string_view rest_of_line(bool with_marks = false);
-    /// Bytes up to the end of the line.
+    /// Bytes up to the end of the line, with those that are joined to it.
     [[nodiscard]] std::size_t rest_size() const;
     /// Goes to the end of the line.
     void skip_line();
+    /// The same for values that a row should not have, of which warn() tells.
+    void pass_long_row() { skip_line(), ++long_rows_; }
     /// Words up to the end of the line, at most `most`, which stay.
     [[nodiscard]] std::size_t words_in_line(std::size_t most) const;
     /// True if no word of this line was taken yet.
@@ -102,7 +105,7 @@ public:
     double wrong(std::string_view found, std::string_view expected);
     /// Refuses what was found, at this line.
     [[noreturn]] void refuse_word(std::string_view found, std::string_view expected) const;
-    /// What should come next, for the message of end().
+    /// Says what should come next, for the message of end().
     void expect_next(const char* what) { expected_ = what; }
     /// Throws CutOff: the text ends before what is expected. Strict: refuses it.
     [[noreturn]] void end() const {
@@ -119,9 +122,9 @@ public:
     [[nodiscard]] std::string_view left() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
 private:
-    static bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
-    static bool is_end(char c) { return c == '\n' || c == '\r'; }
-    [[nodiscard]] bool is_joined_end(const char* at) const { return joined_lines_ && *at == '\\' && at + 1 < end_ && is_end(at[1]); }
+    [[nodiscard]] bool is_joined_end(const char* at) const { return joined_lines_ && *at == '\\' && at + 1 < end_ && is_line_end(at[1]); }
+    /// Behind the end of a line.
+    [[nodiscard]] const char* behind_end(const char* at) const { return at + (*at == '\r' && at + 1 < end_ && at[1] == '\n' ? 2 : 1); }
     /// Goes to the next word of this line. False: it has no more.
     bool find_word() {
         for (; at_ < end_; ++at_) {
@@ -134,7 +137,7 @@ private:
                 ++at_;
                 pass_end();
                 --at_;
-            } else if (is_end(*at_)) {
+            } else if (is_line_end(*at_)) {
                 return false;
             }
         }
@@ -162,8 +165,7 @@ private:
     void pass_comment();
     /// Goes past the end of a line, where it stands.
     void pass_end() {
-        const bool is_pair = *at_ == '\r' && at_ + 1 < end_ && at_[1] == '\n';
-        at_ += is_pair ? 2 : 1;
+        at_ = behind_end(at_);
         ++line_;
         check_();
     }
@@ -183,13 +185,14 @@ private:
     const char *begin_, *at_, *end_;
     const char* expected_ = "more";
     Document* document_;
-    std::string name_;
+    std::string name_, joined_;
     bool joined_lines_, taken_in_line_ = false;
     std::size_t line_;
     TimeCheck check_;
     std::string_view kept_mark_;
     std::vector<std::string_view>* kept_ = nullptr;
     Noted unknown_, wrong_;
+    std::size_t long_rows_ = 0;
 };
 
 }  // namespace halflit::io::detail

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -41,7 +42,7 @@ public:
     [[nodiscard]] bool has_ends() const { return has_ends_; }
 
     /// The circles of half a ball about `centre`, from its pole to its equator (way -1), or from there to the pole (way 1).
-    void add_half_ball(std::vector<Ring>& outline, double centre, double radius, int way) const {
+    void add_half_ball(std::vector<Ring>& outline, double centre, double radius, double way) const {
         for (int i = 0; i <= quarter_; ++i) {
             const int step = way < 0 ? i : quarter_ - i;  // from the pole
             const auto [sin, cos] = step == quarter_ ? SinCos{1.0, 0.0} : sin_cos(0.5 * kPi * step / quarter_);
@@ -96,6 +97,7 @@ private:
 
 void sweep_lattice(Object& object, const std::string& where, ModelBuilder& builder) {
     Lattice lattice = std::exchange(object.lattice, {});
+    if (lattice.beams.empty() && lattice.balls.empty()) return;
     const std::size_t vertices = object.vertices.size();
     const auto is_size = [](double radius) { return radius > 0 && radius < 1e30; };
     const auto axis_of = [&](const Lattice::Beam& beam) { return object.vertices[beam.vertex[1]] - object.vertices[beam.vertex[0]]; };
@@ -113,12 +115,12 @@ void sweep_lattice(Object& object, const std::string& where, ModelBuilder& build
     std::vector<Ring> outline;
     for (const Lattice::Beam& beam : lattice.beams) {
         const Vec3d axis = axis_of(beam);
-        const double size = length(axis), fall = beam.radius[0] - beam.radius[1], slant = __builtin_sqrt(size * size + fall * fall);
+        const double size = length(axis), fall = beam.radius[0] - beam.radius[1], slant = std::sqrt(size * size + fall * fall);
         outline.clear();
         const auto add_end = [&](std::size_t end) {
             const double at = end == 0 ? 0 : size, radius = beam.radius[end], way = end == 0 ? -1 : 1;
             if (!sweeper.has_ends()) return;
-            if (beam.cap[end] != Lattice::Cap::butt) return sweeper.add_half_ball(outline, at, radius, end == 0 ? -1 : 1);
+            if (beam.cap[end] != Lattice::Cap::butt) return sweeper.add_half_ball(outline, at, radius, way);
             for (const double r : {end == 0 ? 0 : radius, end == 0 ? radius : 0}) outline.push_back({at, r, way, 0, end == 1});
         };
         add_end(0);

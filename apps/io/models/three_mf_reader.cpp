@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #endif
@@ -87,15 +88,13 @@ public:
             builder_.document().warn(
                 fmt::format("{} modifiers, negative volumes and supports are left out: they are not printed as bodies", helpers_));
         const bool has_mesh = helpers_ > 0 || left_out > 0 || !builder_.loaded().scene.meshes.empty();
-        if (builder_.loaded().scene.instances.empty() && (has_mesh || !place_picture()))
-            builder_.document().warn("the build has no items: nothing is drawn");
+        if (builder_.loaded().scene.instances.empty() && !has_mesh) place_picture();
         return root.model.metres;
     }
 
 private:
     struct Made {
         std::vector<int> meshes;
-        bool is_made = false;
         bool has_something = false;  ///< it or a component of it has meshes
         bool is_open = false;        ///< while its components are looked at
     };
@@ -103,7 +102,8 @@ private:
         std::string name;
         Model model;
         std::map<std::uint32_t, Made> made;
-        std::map<std::pair<std::uint32_t, bool>, int> texture_material;
+        std::map<std::uint32_t, int> texture_material;
+        std::optional<LoadFailure> failure;  ///< of reading it
     };
 
     /// The part that the package's relations name; where they name none, the usual one, or any of its kind.
@@ -211,20 +211,34 @@ private:
         return bounds_work_ > kMostBoundsWork ? one : plates_by_place(bodies);
     }
 
-    /// A file of machine code alone holds a picture of the plate. False: it has none.
-    bool place_picture() {
+    /// A file of machine code alone may hold a picture of the plate.
+    void place_picture() {
         const std::string plate = fmt::format("Metadata/plate_{}.png", std::max(1, builder_.options().plate));
         for (const std::string& name : {plate, picture_, std::string("Metadata/thumbnail.png")}) {
-            auto picture = name.empty() ? std::nullopt : package_.read(name);
-            if (picture && builder_.place_card(*std::move(picture), name)) return true;
+            try {
+                auto picture = name.empty() ? std::nullopt : package_.read(name);
+                if (picture && builder_.place_card(*std::move(picture), name)) return;
+            } catch (const LoadFailure& failure) {
+                builder_.document().go_on_without(failure, "it is not drawn");
+            }
         }
-        return false;
     }
 
     Part& part(const std::string& given) {
         const std::string name = given.starts_with('/') ? given.substr(1) : given;
         const auto [entry, is_new] = parts_.try_emplace(name);
-        if (!is_new) return entry->second;
+        Part& part = entry->second;
+        if (is_new) {
+            try {
+                read_part(name, part);
+            } catch (const LoadFailure& failure) {
+                part.failure = failure;
+            }
+        }
+        if (part.failure) throw *part.failure;
+        return part;
+    }
+    void read_part(const std::string& name, Part& part) {
         auto text = package_.read(name);
         if (!text) refuse(printable(name, 120), "is not in the ZIP file");
         // The limit for geometry goes by what was unpacked, as far as the text of a mesh can be packed.
@@ -232,9 +246,8 @@ private:
         unpacked_ += text->size();
         document.file_bytes = packed_ + std::min(unpacked_, kMostPacked * packed_);
         set_geometry_limit(document);
-        entry->second.name = name;
-        entry->second.model = read_three_mf_model(*text, printable(name, 120), builder_);
-        return entry->second;
+        part.name = name;
+        part.model = read_three_mf_model(*text, printable(name, 120), builder_);
     }
 
     static LoadFailure lost_object(const Part& part, std::uint32_t id) {
@@ -244,24 +257,33 @@ private:
     Made& make(Part& part, std::uint32_t id, int depth) {
         const auto object = part.model.objects.find(id);
         if (object == part.model.objects.end()) throw lost_object(part, id);
-        Made& made = part.made[id];
+        const auto [entry, is_new] = part.made.try_emplace(id);
+        Made& made = entry->second;
         if (made.is_open) refuse(printable(part.name, 120), fmt::format("the object {} is a component of itself", id));
-        if (made.is_made) return made;
+        if (!is_new) return made;
         if (depth > kMostDepth)
             refuse(printable(part.name, 120), fmt::format("more than {} components inside each other", kMostDepth), ErrorCode::limit);
-        made.is_open = true;
         if (depth == 0) root_ = id;
         if (object->second.is_support || !project_.volume_of(root_, id).is_drawn) {
             ++helpers_;
-            made.is_open = false;
-            made.is_made = true;
             return made;
         }
-        apply_project(part, object->second, id);
-        sweep_lattice(object->second, where_of(part, object->second), builder_);
-        make_meshes_of(part, object->second, made);
+        made.is_open = true;
+        try {
+            fill(made, part, object->second, id, depth);
+        } catch (const LoadFailure&) {
+            made.is_open = false;
+            throw;
+        }
+        made.is_open = false;
+        return made;
+    }
+    void fill(Made& made, Part& part, Object& object, std::uint32_t id, int depth) {
+        apply_project(part, object, id);
+        sweep_lattice(object, where_of(part, object), builder_);
+        make_meshes_of(part, object, made);
         made.has_something = !made.meshes.empty();
-        std::erase_if(object->second.components, [&](const Component& component) {
+        std::erase_if(object.components, [&](const Component& component) {
             try {
                 Part& where = component.path.empty() ? part : this->part(component.path);
                 const bool has = make(where, component.object, depth + 1).has_something;
@@ -272,9 +294,6 @@ private:
                 return true;
             }
         });
-        made.is_open = false;
-        made.is_made = true;
-        return made;
     }
 
     void place(const std::string& path, const Component& what, const Affine& parent, double root_metres, int depth) {
@@ -371,13 +390,13 @@ private:
         return clear_;
     }
     int texture_material(Part& part, std::uint32_t id) {
-        const auto [entry, is_new] = part.texture_material.try_emplace({id, false}, -1);
+        const auto [entry, is_new] = part.texture_material.try_emplace(id, -1);
         if (!is_new) return entry->second;
         const auto texture = part.model.textures.find(id);
         const std::string where = fmt::format("{}: texture2d {}", printable(part.name, 120), id);
-        if (texture == part.model.textures.end()) refuse(where, "is not there");
         Material material = builder_.loaded().scene.materials[static_cast<std::size_t>(builder_.colored_material())];
         try {
+            if (texture == part.model.textures.end()) refuse(where, "is not there");
             auto picture = package_.read(texture->second.path);
             if (!picture) refuse(where, fmt::format("\"{}\" is not in the ZIP file", printable(texture->second.path, 120)));
             material.textures[TextureSlot::base_color].texture = builder_.texture(

@@ -28,9 +28,11 @@ inline constexpr WriterHabit kNoColors[] = {
 /// Colour of a whole STL file that is a program's default: MeshLab writes "COLOR=\x7f\x7f\x7f\xff MATERIAL=" into each header.
 inline constexpr std::uint32_t kDefaultStlHeader = 0x7f7f7f;
 
-[[nodiscard]] constexpr bool means_no_color(ModelFormat format, std::uint32_t value) {
+/// Whether `is` holds for a value by which writers of the format mean no colour.
+template <class Is>
+[[nodiscard]] constexpr bool means_no_color(ModelFormat format, const Is& is) {
     return std::any_of(std::begin(kNoColors), std::end(kNoColors),
-                       [&](const WriterHabit& row) { return row.format == format && row.value == value; });
+                       [&](const WriterHabit& row) { return row.format == format && is(row.value); });
 }
 
 }  // namespace halflit::io::detail

@@ -90,7 +90,7 @@ const char* encoding_of(std::string_view text) {
     if (first.starts_with("\xFE\xFF") || first.starts_with("\xFF\xFE") || first.find('\0') != std::string_view::npos) return nullptr;
     const std::string_view head = text.substr(0, std::min<std::size_t>(text.find("?>"), 200));
     const std::size_t at = head.find("encoding=");
-    const std::string_view named = at == std::string_view::npos ? head.substr(0, 0) : head.substr(at + 10);
+    const std::string_view named = at == std::string_view::npos ? head.substr(0, 0) : head.substr(std::min(at + 10, head.size()));
     for (const std::string_view begin : {"iso-8859", "windows-12", "latin"})
         if (same_word(named.substr(0, begin.size()), begin)) return "ISO-8859-1";
     return "UTF-8";
@@ -105,8 +105,8 @@ struct Reading {
     int depth = 0;
     std::uint64_t elements = 0;
     bool has_lost_prefix = false;
-    std::map<std::string, std::vector<std::string>, std::less<>> spaces;                              ///< of a prefix, the innermost last
-    std::vector<std::pair<int, std::map<std::string, std::vector<std::string>>::iterator>> declared;  ///< with the depth of its element
+    std::map<std::string, std::vector<std::string>, std::less<>> spaces;  ///< of a prefix, the innermost last
+    std::vector<std::pair<int, decltype(spaces)::iterator>> declared;     ///< with the depth of its element
 
     template <class Action>
     void guarded(const Action& action) {

@@ -1,5 +1,5 @@
-// XML read by expat: elements in their order, with their attributes. No entities are accepted. What is wrong beside the elements, as a
-// prefix that nothing declares or a byte that is not UTF-8, does not end the text.
+// XML read by expat: elements in their order, with their attributes. XML's five entities are read, a file's own refuse it. What is wrong
+// beside the elements, as a prefix that nothing declares or a byte that is not UTF-8, does not end the text.
 #pragma once
 #include <cstddef>
 #include <span>

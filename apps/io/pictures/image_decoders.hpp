@@ -39,9 +39,6 @@ Result<ImageHeader> read_ktx2_header(std::span<const std::byte> file, const Imag
 Result<void> decode_ktx2_rows(std::span<const std::byte> file, const ImageLimits& limits, RowSink& sink);
 Result<DecodedImage> decode_tga(std::span<const std::byte> file, const ImageLimits& limits);
 
-/// Unpacks a zlib stream that fills `to`. False: it is damaged, or of another length.
-[[nodiscard]] bool unpack_zlib(std::span<const std::byte> from, std::span<std::uint8_t> to);
-
 /// Fails unless width and height are at least 1 and within the limits.
 Result<void> check_image_size(std::uint64_t width, std::uint64_t height, const ImageLimits& limits);
 

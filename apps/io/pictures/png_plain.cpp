@@ -1,12 +1,12 @@
 #include "apps/io/pictures/png_plain.hpp"
 
+#include "apps/io/files/deflate.hpp"
 #include "apps/io/pictures/png_filter.hpp"
 
 #include <libdeflate.h>
 
 #include <cstring>
 #include <memory>
-#include <new>
 
 namespace halflit::io::detail {
 
@@ -46,11 +46,7 @@ std::vector<std::byte> compressed_data(std::span<const std::byte> file) {
 
 /// Rows as the file has them; null if the data are damaged, or do not have this size.
 std::unique_ptr<std::uint8_t[]> inflate(std::span<const std::byte> data, std::size_t size) {
-    struct Free {
-        void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
-    };
-    const std::unique_ptr<libdeflate_decompressor, Free> decompressor(libdeflate_alloc_decompressor());
-    if (!decompressor) throw std::bad_alloc();
+    const Decompressor decompressor = make_decompressor();
     auto rows = std::make_unique_for_overwrite<std::uint8_t[]>(size + kReadPastRow);
     std::memset(&rows[size], 0, kReadPastRow);
     std::size_t taken = 0, made = 0;

@@ -1,16 +1,14 @@
 // TIFF as painting programs write it: grey, colour or a palette of 1 to 16 bits a channel, in strips or tiles, plain or compressed by
 // PackBits, LZW or deflate, with or without horizontal differences. Own code: libtiff brings six libraries into each process. Refused are
 // fax, JPEG, separate planes and floats. The first picture of the file is read.
+#include "apps/io/files/deflate.hpp"
 #include "apps/io/files/little_endian.hpp"
 #include "apps/io/pictures/image_decoders.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/format.h>
 
-#include <libdeflate.h>
-
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 namespace halflit::io::detail {
@@ -167,15 +165,6 @@ void add_differences(const Layout& layout, bool big, std::span<std::uint8_t> row
 
 }  // namespace
 
-bool unpack_zlib(std::span<const std::byte> from, std::span<std::uint8_t> to) {
-    struct Free {
-        void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
-    };
-    const std::unique_ptr<libdeflate_decompressor, Free> decompressor(libdeflate_alloc_decompressor());
-    if (!decompressor) return false;
-    return libdeflate_zlib_decompress(decompressor.get(), from.data(), from.size(), to.data(), to.size(), nullptr) == LIBDEFLATE_SUCCESS;
-}
-
 bool is_tiff(std::span<const std::byte> file) {
     return file.size() >= 8 && ((byte_at(file, 0) == 'I' && byte_at(file, 1) == 'I' && byte_at(file, 2) == 42 && byte_at(file, 3) == 0) ||
                                 (byte_at(file, 0) == 'M' && byte_at(file, 1) == 'M' && byte_at(file, 2) == 0 && byte_at(file, 3) == 42));
@@ -197,9 +186,9 @@ Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLim
                   tiff.first(kCompression, 1), tiff.first(kPredictor, 1), false};
     const bool is_palette = layout.photometric == 3, is_color = layout.photometric == 2;
     layout.has_alpha = layout.samples == (is_color ? 4u : 2u) && tiff.first(kExtra, 2) != 0;
-    const bool can_read =
-        layout.photometric <= 3 && layout.samples >= (is_color ? 3u : 1u) && layout.samples <= 8 &&
-        (layout.bits == 8 || (layout.bits == 16 && !is_palette) || (layout.bits < 8 && 8 % layout.bits == 0 && layout.samples == 1));
+    const bool can_read = layout.photometric <= 3 && layout.samples >= (is_color ? 3u : 1u) && layout.samples <= 8 &&
+                          (layout.bits == 8 || (layout.bits == 16 && !is_palette) ||
+                           (layout.bits > 0 && layout.bits < 8 && 8 % layout.bits == 0 && layout.samples == 1));
     const std::uint32_t compression = layout.compression;
     if (!can_read || (compression != 1 && compression != 5 && compression != 8 && compression != 32773 && compression != 32946) ||
         tiff.first(kPlanes, 1) != 1 || tiff.first(kSampleFormat, 1) != 1 || layout.predictor > 2)
@@ -220,9 +209,9 @@ Result<DecodedImage> decode_tiff(std::span<const std::byte> file, const ImageLim
     const std::size_t row_bytes = (std::size_t{part_width} * layout.samples * layout.bits + 7) / 8;
     const std::uint32_t across = (width + part_width - 1) / part_width, down = (height + part_height - 1) / part_height;
     if (offsets->count < std::uint64_t{across} * down) return damaged("strips or tiles are missing");
-    // What a byte of the file can hold at most, so that a short file cannot take much memory.
+    // Bytes that a byte of the file can hold at most, so that a short file cannot take much memory.
     const std::uint64_t most_by_byte = compression == 1 ? 1 : compression == 32773 ? 64 : compression == 5 ? 2800 : 1032;
-    if (std::uint64_t{row_bytes} * std::min(part_height, height) * across * down / 2 > file.size() * most_by_byte)
+    if (std::uint64_t{row_bytes} * part_height * across * down / 2 > file.size() * most_by_byte)
         return damaged("the file ends within the pixels");
     std::vector<std::uint8_t> part;
     image.rgba8.assign(std::size_t{4} * width * height, 255);

@@ -231,9 +231,10 @@ void ImageStore::fit_memory() {
     }
     const std::string share = least == most ? fmt::format("1/{}", 1 << most) : fmt::format("1/{} to 1/{}", 1 << least, 1 << most);
     const auto megabytes = [](std::uint64_t n) { return static_cast<double>(n) / 1e6; };
-    document_.warn(fmt::format(
-        "the textures would take {:.3g} MB, the limit for a file of this size is {:.3g} MB: {} of {} are kept at {} of their sides",
-        megabytes(texture_bytes_), megabytes(limit), reduced, jobs_.size(), share));
+    document_.warn(fmt::format("the textures would take {:.3g} MB, the limit{} is {:.3g} MB: {} of {} are kept at {} of their sides",
+                               megabytes(texture_bytes_),
+                               limit == document_.options.limits.max_texture_bytes ? " (max_texture_bytes)" : " for a file of this size",
+                               megabytes(limit), reduced, jobs_.size(), share));
 }
 
 void ImageStore::start() {

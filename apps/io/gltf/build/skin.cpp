@@ -87,6 +87,7 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
     std::size_t negative = 0, without = 0, other_sum = 0, out_of_range = 0, not_finite = 0;
     for (std::size_t v = 0; v < vertices; ++v) {
         double sum = 0.0;
+        bool has_not_finite = false, has_negative = false;
         for (const Set& set : sets) {
             Influence& influence = read.source.influences.emplace_back();
             set.joints->read_unsigned(read.source_vertices[v], influence.joint);
@@ -94,8 +95,8 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
             for (std::size_t k = 0; k < 4; ++k) {
                 const float weight = influence.weight[k];
                 const bool finite = shading::finite(weight);
-                if (!finite) ++not_finite;
-                if (finite && weight < 0.0f) ++negative;
+                has_not_finite = has_not_finite || !finite;
+                has_negative = has_negative || (finite && weight < 0.0f);
                 if (!finite || !(weight > 0.0f)) {
                     influence.weight[k] = 0.0f;
                     continue;
@@ -112,6 +113,8 @@ bool read_influences(Document& document, const std::vector<Accessor>& accessors,
                 sum += double{weight};
             }
         }
+        if (has_not_finite) ++not_finite;
+        if (has_negative) ++negative;
         constexpr double kTolerance = 0.02;  // weights in 8-bit integers, each rounded alone, are wrong by up to 0.008 together
         if (!(sum > 0.0))
             ++without;

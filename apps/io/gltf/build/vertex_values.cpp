@@ -23,7 +23,7 @@ std::size_t count_of(const std::vector<T>& values, const Bad& bad) {
     return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), bad));
 }
 
-/// What it says of values of which some are bad: nothing if none are.
+/// A text about the bad ones among values; empty if there are none.
 template <class T, class Bad>
 std::string found_in(const std::string& list, const char* name, const std::vector<T>& values, const Bad& bad, const char* what) {
     const auto first = std::find_if(values.begin(), values.end(), bad);

@@ -27,16 +27,17 @@ std::vector<std::byte> Document::read_uri(std::string_view uri, const std::strin
     return bytes;
 }
 
-Result<std::vector<std::byte>> Document::read_named(std::string_view name) {
+Result<std::vector<std::byte>> Document::read_named(std::string_view name, std::string* found) {
     const std::size_t most = options.limits.max_file_bytes;
-    std::string found(name);
-    auto bytes = options.strict ? folder.read(name, most) : folder.read_like(name, most, found);
+    std::string read(name);
+    auto bytes = options.strict ? folder.read(name, most) : folder.read_like(name, most, read);
     if (bytes) {
         named_bytes += bytes->size();
         grant_work(allowed_work() - detail::allowed_work(options.limits, file_bytes + named_bytes - bytes->size()));
     }
-    if (bytes && found != name)
-        warn(fmt::format("\"{}\": there is no such file, \"{}\" is read", printable(name, 120), printable(found, 120)));
+    if (bytes && found == nullptr && read != name)
+        warn(fmt::format("\"{}\": there is no such file, \"{}\" is read", printable(name, 120), printable(read, 120)));
+    if (found != nullptr) *found = std::move(read);
     return bytes;
 }
 

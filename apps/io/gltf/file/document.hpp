@@ -50,8 +50,8 @@ struct Document {
     /// The bytes of a URI: of a data: URI, or of the file that it names. Throws LoadFailure.
     [[nodiscard]] std::vector<std::byte> read_uri(std::string_view uri, const std::string& where);
     /// The file of a name that the model gives, at most max_file_bytes; unless strict, of one like it (ModelFolder::read_like), with a
-    /// warning.
-    [[nodiscard]] Result<std::vector<std::byte>> read_named(std::string_view name);
+    /// warning, or with its name in `found`.
+    [[nodiscard]] Result<std::vector<std::byte>> read_named(std::string_view name, std::string* found = nullptr);
     /// Work that files of this size may take; see LoadLimits::max_work.
     [[nodiscard]] std::uint64_t allowed_work() const { return detail::allowed_work(options.limits, file_bytes + named_bytes); }
     /// Adds a warning; the first hundred different ones are kept.

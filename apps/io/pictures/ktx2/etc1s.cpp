@@ -157,7 +157,7 @@ bool read_selectors(std::span<const std::byte> bytes, std::size_t count, std::ve
     return true;
 }
 
-/// What all slices of a texture share.
+/// The books that all slices of a texture share.
 struct Books {
     std::vector<Palette4> colors;
     std::vector<Pattern> patterns;

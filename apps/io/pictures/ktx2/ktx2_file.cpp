@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #if HALFLIT_HAS_KTX2
+#include "apps/io/files/deflate.hpp"
 #include "apps/io/files/little_endian.hpp"
 #include "apps/io/pictures/ktx2/blocks.hpp"
 #include "sh/time_limit.hpp"
@@ -14,6 +15,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -120,10 +122,12 @@ Result<Ktx2> read_ktx2(std::span<const std::byte> file, const ImageLimits& limit
 class LevelBytes {
 public:
     explicit LevelBytes(const Ktx2& ktx) : rest_(ktx.level) {
-        constexpr int kWindowBits = 28;  // a level of plain channels of 64 million pixels may be its own window
         if (ktx.scheme != Scheme::zstd) return;
+        // A level may be its own window. Streams of unknown length have up to 8 MB, which the format asks readers to support.
+        const std::uint64_t most = 4 * (std::uint64_t{ktx.width} + 3) * (std::uint64_t{ktx.height} + 3);
+        const int window_bits = std::clamp<int>(static_cast<int>(std::bit_width(most)), 23, 28);
         stream_.reset(ZSTD_createDStream());
-        if (!stream_ || ZSTD_isError(ZSTD_DCtx_setParameter(stream_.get(), ZSTD_d_windowLogMax, kWindowBits)) != 0) throw std::bad_alloc();
+        if (!stream_ || ZSTD_isError(ZSTD_DCtx_setParameter(stream_.get(), ZSTD_d_windowLogMax, window_bits)) != 0) throw std::bad_alloc();
     }
     /// Unpacks all of a level that zlib has compressed. False: it is damaged.
     bool inflate_all(std::uint64_t size) {

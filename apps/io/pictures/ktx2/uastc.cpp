@@ -101,7 +101,7 @@ std::array<std::uint32_t, kMostValues> read_end_points(BitReader& block, const R
     return values;
 }
 
-/// Of 64.
+/// A weight as a share of 64.
 std::uint32_t expand_weight(std::uint32_t weight, int bits) {
     std::uint32_t of_63 = 0;
     for (int shift = 6 - bits; shift > -bits; shift -= bits) of_63 |= shift >= 0 ? weight << shift : weight >> -shift;
