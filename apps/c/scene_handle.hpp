@@ -18,7 +18,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace halflit::c {
@@ -71,7 +70,7 @@ private:
 };
 
 /// A mesh as it was given, if the scene's mesh has normals or tangents that the library made: its vertices may be split.
-using GivenMeshes = std::unordered_map<std::size_t, Mesh>;
+using GivenMeshes = std::map<std::size_t, Mesh>;
 
 }  // namespace halflit::c
 

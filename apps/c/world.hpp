@@ -48,6 +48,10 @@ public:
     void set_up(UpAxis up) { at_.up = up; }
     /// The mesh's positions are multiplied by this.
     void set_mesh_scale(std::size_t mesh, double scale);
+    /// The place of a mesh is another's from now on, whose positions are as they were given.
+    void forget_mesh_scale(std::size_t mesh) {
+        if (mesh < at_.mesh_scales.size()) at_.mesh_scales[mesh] = 1.0;
+    }
 
     [[nodiscard]] Vec3d into(const FinePoint& p) const;
     [[nodiscard]] FinePoint out(Vec3d p) const;

@@ -3,6 +3,7 @@
 
 #include "halflit/camera.hpp"
 #include "raster/scene/prepared_data.hpp"
+#include "raster/view/view.hpp"
 
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ namespace halflit::raster {
 
 /// Adds a warning that names what the near plane cuts off, or hides as a whole, in the picture: surfaces between the eye and the plane, and
 /// of an orthographic camera, which sees what is behind its eye where nothing is cut, those that cross the plane.
-/// camera: of drawn_camera().
-void add_cut_warning(const PreparedData& scene, const Camera& camera, float aspect, std::vector<std::string>& warnings);
+/// camera: of drawn_camera(). view: its picture.
+void add_cut_warning(const PreparedData& scene, const Camera& camera, const View& view, std::vector<std::string>& warnings);
 
 }  // namespace halflit::raster
