@@ -1,7 +1,9 @@
 """Materials, lights and cameras as objects: what they begin with, copies, and what is told of them."""
 import copy
 import multiprocessing
+import os
 import pickle
+import tempfile
 import unittest
 import warnings
 from concurrent.futures import ProcessPoolExecutor
@@ -69,6 +71,22 @@ class Records(unittest.TestCase):
         damaged[len(damaged) // 2] ^= 1
         with self.assertRaisesRegex(halflit.BadInputError, "expected the bytes of a scene"):
             halflit.Scene()._change("scene_restore", bytes(damaged), len(damaged))
+
+    def test_a_copy_of_a_scene_with_animations_needs_its_file_as_it_was(self):
+        with tempfile.TemporaryDirectory() as folder:
+            here, path = os.getcwd(), os.path.join(folder, "box.gltf")
+            with open(path, "wb") as file:
+                file.write(box())
+            try:
+                os.chdir(folder)
+                kept = pickle.dumps(halflit.Scene.load("box.gltf", keep_animations=True))
+            finally:
+                os.chdir(here)
+            self.assertEqual(pickle.loads(kept).counts["meshes"], 1)
+            with open(path, "ab") as file:
+                file.write(b" ")
+            with self.assertRaisesRegex(halflit.UsageError, "box.gltf: changed since"):
+                pickle.loads(kept)
 
     def test_a_scene_reaches_a_process_that_is_spawned(self):
         scene = halflit.Scene.demo()

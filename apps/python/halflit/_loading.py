@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import zlib
 from typing import TYPE_CHECKING, Any, BinaryIO, Dict, Tuple, Union
 
 from . import _c
@@ -55,6 +56,17 @@ def loading(source: Any, base_dir: Any, options: Dict[str, Any]) -> Tuple[str, T
         data = bytes(source)
         return "add_file_memory", (data, len(data), os.fsencode(name), _c.bytes_of(base_dir, "base_dir"), ctypes.byref(how))
     return "add_file", (_c.required(source, "source"), ctypes.byref(how))
+
+
+def sum_of(source: Union[str, bytes]) -> int:
+    """A check sum of the bytes, or of the file that is named so."""
+    if isinstance(source, bytes):
+        return zlib.crc32(source)
+    found = 0
+    with open(source, "rb") as file:
+        while part := file.read(1 << 20):
+            found = zlib.crc32(part, found)
+    return found
 
 
 def load_options(options: Dict[str, Any]) -> Any:
