@@ -281,8 +281,8 @@ int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, half
     return reading(__func__, scene, {{camera, "camera"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.cameras.size(), "camera");
         if (!at) return tl::unexpected<Error>(at.error());
-        const CallersCamera told = scene->world.out(scene->scene.cameras[*at]);
-        halflit_camera found = to_c(told);
+        const CallersCamera found_camera = scene->world.out(scene->scene.cameras[*at]);
+        halflit_camera found = to_c(found_camera);
         found.name = scene->scene.cameras[*at].name.c_str();  // valid as long as the scene
         return write_struct(found, camera, "halflit_camera");
     });

@@ -79,7 +79,7 @@ struct halflit_scene {
     std::vector<std::string> warnings;
     std::vector<halflit::AnimationInfo> animations;
     std::shared_ptr<const halflit::Motion> motion;      ///< null: not kept
-    halflit::c::World world;                            ///< what is given and told goes through it
+    halflit::c::World world;                            ///< what is passed in and returned goes through it
     bool up_is_set = false;                             ///< by the caller
     std::vector<halflit::Node> nodes;                   ///< of the file; their instances with the skinned ones
     std::vector<int> node_of_instance;                  ///< of the first instances, which a file may have brought; -1: none

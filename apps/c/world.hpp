@@ -1,4 +1,4 @@
-// The caller's world and the one that is drawn. Everything that is given and told has the coordinates of the file, or of the caller's
+// The caller's world and the one that is drawn. Everything that is passed in and returned has the coordinates of the file, or of the caller's
 // arrays; what is drawn has y up, lies near the origin and is neither tiny nor huge.
 #pragma once
 
@@ -72,9 +72,9 @@ public:
     /// Lengths of settings.
     [[nodiscard]] Settings into(Settings given) const;
     [[nodiscard]] Settings out(Settings drawn) const;
-    /// A frame's planes, in place. Where positions move(), `target` has a plane of depth or instance too, which tells where a surface is.
+    /// A frame's planes, in place. Where positions move(), `target` has a plane of depth or instance too, which shows where a surface is.
     void out(const halflit_target& target, const Region& region) const;
-    /// Whether out() of positions needs a plane that tells where a surface is.
+    /// Whether out() of positions needs a plane that shows where a surface is.
     [[nodiscard]] bool moves() const { return !(at_.origin == Vec3d{}); }
 
 private:
