@@ -1,5 +1,6 @@
 #include "apps/c/world.hpp"
 
+#include "apps/io/models/scaled_lengths.hpp"
 #include "sh/vec3d.hpp"
 
 #include <algorithm>
@@ -9,28 +10,11 @@
 namespace halflit::c {
 namespace {
 
-constexpr double kLargest = 3e38;  // a finite float
+using io::scaled, io::scale_lengths;
 
 Vec3f rounded(Vec3d p) {
-    const auto within = [](double x) { return std::isfinite(x) ? std::clamp(x, -kLargest, kLargest) : x; };
+    const auto within = [](double x) { return std::isfinite(x) ? std::clamp(x, -io::kLargestLength, io::kLargestLength) : x; };
     return to_float({within(p.x), within(p.y), within(p.z)});
-}
-
-float scaled(float length, double factor) { return static_cast<float>(std::clamp(double{length} * factor, -kLargest, kLargest)); }
-
-void scale_lengths(Camera& camera, double factor) {
-    for (float* const length : {&camera.near_z, &camera.far_z, &camera.half_height, &camera.half_width}) *length = scaled(*length, factor);
-    if (!camera.orthographic || !camera.sides) return;
-    for (float* const side : {&camera.sides->left, &camera.sides->right, &camera.sides->bottom, &camera.sides->top})
-        *side = scaled(*side, factor);
-}
-
-/// A light's lengths and its colour, which falls with the squared distance.
-void scale_lengths(Light& light, double factor) {
-    if (!kind_of(light.type).placed) return;
-    for (float* const length : {&light.range, &light.source_radius, &light.shadow_radius}) *length = scaled(*length, factor);
-    for (float* const channel : {&light.color_linear.x, &light.color_linear.y, &light.color_linear.z})
-        *channel = scaled(*channel, factor * factor);
 }
 
 Vec3d column(const Mat4& m, int i) { return {m.c[i].x, m.c[i].y, m.c[i].z}; }
