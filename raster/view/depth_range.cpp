@@ -19,17 +19,9 @@ namespace {
 /// Planes at most this many times as far apart as the scene is deep and wide stay where they are: those of cameras that halflit places do.
 constexpr double kMostRoom = 8.0;
 
-/// Least and largest distance along the view axis of a box.
-struct DepthSpan {
-    double nearest, farthest;
-
-    DepthSpan(const Camera& camera, const Bounds& box) {
-        const Vec3d back = axis(camera.world_from_camera, 2), eye = axis(camera.world_from_camera, 3);
-        const Vec3d middle = (to_double(box.min) + to_double(box.max)) * 0.5, half = (to_double(box.max) - to_double(box.min)) * 0.5;
-        const double centre = dot(eye - middle, back), reach = dot(half, absolute(back));
-        nearest = centre - reach, farthest = centre + reach;
-    }
-};
+DepthSpan depth_span(const Camera& camera, const Bounds& box) {
+    return {axis(camera.world_from_camera, 3), axis(camera.world_from_camera, 2), box};
+}
 
 /// The corners of a surface's part in the view: x and y in shares of half the picture, times w, and the distance along the view axis.
 struct CutCorner {
@@ -146,11 +138,17 @@ bool cuts_instance(const PreparedData& scene, std::size_t index, const View& vie
 
 }  // namespace
 
+DepthSpan::DepthSpan(Vec3d eye, Vec3d back, const Bounds& box) {
+    const Vec3d middle = (to_double(box.min) + to_double(box.max)) * 0.5, half = (to_double(box.max) - to_double(box.min)) * 0.5;
+    const double centre = dot(eye - middle, back), reach = dot(half, absolute(back));
+    nearest = centre - reach, farthest = centre + reach;
+}
+
 Camera drawn_camera(const Camera& camera, const PreparedData& scene) {
     Camera drawn = completed(camera, scene.framed_bounds());
     const Bounds& box = scene.bounds();
     if (!drawn.orthographic || box.empty || !finite(drawn.near_z)) return drawn;
-    const DepthSpan span(drawn, box);
+    const DepthSpan span = depth_span(drawn, box);
     const double deep = span.farthest - span.nearest, radius = box.radius(), room = deep + radius;
     if (!(room > 0.0 && room < 1e37)) return drawn;
     const bool has_far = finite(drawn.far_z) && drawn.far_z > drawn.near_z;
@@ -164,14 +162,14 @@ Camera drawn_camera(const Camera& camera, const PreparedData& scene) {
 
 void add_cut_warning(const PreparedData& scene, const Camera& camera, const View& view, std::vector<std::string>& warnings) {
     const double near_z = camera.near_z;
-    if (scene.bounds().empty || !finite(camera.near_z) || !(DepthSpan(camera, scene.bounds()).nearest < near_z)) return;
+    if (scene.bounds().empty || !finite(camera.near_z) || !(depth_span(camera, scene.bounds()).nearest < near_z)) return;
     const std::vector<Instance>& instances = scene.scene().instances;
     std::size_t first = 0, count = 0;
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const Bounds& box = scene.instance_bounds()[i];
         if (box.empty || !counts_for_views(scene.scene(), instances[i])) continue;
         if (scene.scene().meshes[static_cast<std::size_t>(instances[i].mesh)].topology != Topology::triangles) continue;
-        const DepthSpan span(camera, box);
+        const DepthSpan span = depth_span(camera, box);
         if (!(span.nearest < near_z)) continue;
         const bool crosses = camera.orthographic && span.farthest > near_z;
         const double from = crosses ? span.nearest - 1.0 : 0.0;

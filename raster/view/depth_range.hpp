@@ -10,6 +10,12 @@
 
 namespace halflit::raster {
 
+/// Least and largest distance of a box along a view axis. back: unit vector against the view.
+struct DepthSpan {
+    double nearest, farthest;
+    DepthSpan(Vec3d eye, Vec3d back, const Bounds& box);
+};
+
 /// completed(), with an orthographic camera's planes drawn in to the scene if they lie far outside of it: depths by parallel rays are
 /// float32 shares of the way between the planes, so that planes far apart would leave none for the scene. The picture is cut as before.
 /// drawn_camera() of the result is the same.

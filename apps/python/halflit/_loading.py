@@ -76,7 +76,7 @@ def load_options(options: Dict[str, Any]) -> Any:
         if name == "time":
             how.time_s = finite(value, name)
         elif name not in how._kinds or name in _HIDDEN:
-            raise TypeError(f"no keyword of load() or add_file() is {name!r}")
+            raise TypeError(f"loading has no keyword {name!r}")
         elif name == "allow_external":
             folders = [value] if isinstance(value, (str, bytes, os.PathLike)) else value  # a text is not a list of letters
             names = [_c.bytes_of(folder, name) for folder in folders]
