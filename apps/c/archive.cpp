@@ -68,9 +68,9 @@ private:
 
 /// Whether each of its bytes is a part of its value, and any bytes make one. Structs with padding or truths are visited by member.
 template <class T>
-constexpr bool kIsPlain = (std::is_arithmetic_v<T> || std::is_enum_v<T>) && !std::is_same_v<T, bool>;
-#define HALFLIT_PLAIN(T, Number, count)          \
-    template <>                                  \
+constexpr bool kIsPlain = !std::is_same_v<T, bool> && (std::is_arithmetic_v<T> || std::is_enum_v<T>);
+#define HALFLIT_PLAIN(T, Number, count) \
+    template <>                         \
     constexpr bool kIsPlain<T> = sizeof(T) == (count) * sizeof(Number);
 HALFLIT_PLAIN(Vec2f, float, 2)
 HALFLIT_PLAIN(Vec3f, float, 3)

@@ -179,9 +179,7 @@ std::int32_t get_box(const char* function, const halflit_scene* scene, T* min, T
 
 int32_t halflit_scene_get_box(const halflit_scene* scene, double min[3], double max[3]) { return get_box(__func__, scene, min, max); }
 
-int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) {
-    return get_box(__func__, scene, min, max);
-}
+int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) { return get_box(__func__, scene, min, max); }
 
 int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material) {
     return reading(__func__, scene, {{material, "material"}}, [&]() -> Result<void> {
