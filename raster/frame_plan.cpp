@@ -356,7 +356,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     if (plan.looks_through)
         add_glass_warning(prepared, plan.shading, clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height)),
                           plan.warnings);
-    add_cut_warning(prepared, camera, static_cast<float>(width) / static_cast<float>(height), plan.warnings);
+    add_cut_warning(prepared, camera, plan.picture, plan.warnings);
     if (!shadows->warning.empty()) plan.warnings.push_back(std::move(shadows->warning));
     return plan;
 }

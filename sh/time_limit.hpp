@@ -100,6 +100,6 @@ template <class Less>
 
 /// Messages of the errors for work that OutOfTime ended.
 inline constexpr const char *kOutOfTime = "the time limit was reached before the work was done", *kCancelled = "stopped on request",
-                            *kOutOfWork = "takes more work than a file of its size may (max_work)";
+                            *kOutOfWork = "takes more work than max_work allows";
 
 }  // namespace halflit

@@ -85,12 +85,12 @@ private:
         }
         instances_ = scene.instances.size();
         for (const Instance& drawn : from_.scene.instances) {
-            const CallersInstance told = own_.out(drawn);
-            const Mat4& m = told.instance.world_from_object;
+            const CallersInstance in_file = own_.out(drawn);
+            const Mat4& m = in_file.instance.world_from_object;
             Instance added = drawn;
             added.mesh = shifted(drawn.mesh, meshes), added.material = shifted(drawn.material, materials);
             const Placing placing{{at_.direction(column(m, 0)), at_.direction(column(m, 1)), at_.direction(column(m, 2))},
-                                  at_.point(column(m, 3) + told.rest)};
+                                  at_.point(column(m, 3) + in_file.rest)};
             added.world_from_object = to_.world.into(placing, added.mesh);
             scene.instances.push_back(added);
         }
@@ -100,22 +100,22 @@ private:
         Scene& scene = to_.scene;
         lights_ = scene.lights.size(), cameras_ = scene.cameras.size();
         for (const Light& drawn : from_.scene.lights) {
-            CallersLight told = own_.out(drawn);
-            Light& light = told.light;
+            CallersLight in_file = own_.out(drawn);
+            Light& light = in_file.light;
             Vec4f place{};
-            put(at_.point(Vec3d{light.position_ws.x, light.position_ws.y, light.position_ws.z} + told.rest), place, told.rest);
+            put(at_.point(Vec3d{light.position_ws.x, light.position_ws.y, light.position_ws.z} + in_file.rest), place, in_file.rest);
             light.position_ws = {place.x, place.y, place.z};
             const Vec4f way = column(at_.unit({light.direction_ws.x, light.direction_ws.y, light.direction_ws.z}));
             light.direction_ws = {way.x, way.y, way.z};
-            scene.lights.push_back(to_.world.into(told));
+            scene.lights.push_back(to_.world.into(in_file));
         }
         for (const Camera& drawn : from_.scene.cameras) {
-            CallersCamera told = own_.out(drawn);
-            Mat4& m = told.camera.world_from_camera;
-            const Vec3d place = at_.point(column(m, 3) + told.rest);
+            CallersCamera in_file = own_.out(drawn);
+            Mat4& m = in_file.camera.world_from_camera;
+            const Vec3d place = at_.point(column(m, 3) + in_file.rest);
             for (int i = 0; i < 3; ++i) m.c[i] = column(at_.unit(column(m, i)));
-            put(place, m.c[3], told.rest);
-            scene.cameras.push_back(to_.world.into(told));
+            put(place, m.c[3], in_file.rest);
+            scene.cameras.push_back(to_.world.into(in_file));
         }
     }
 

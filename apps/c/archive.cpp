@@ -14,7 +14,6 @@
 #include <set>
 #include <string>
 #include <type_traits>
-#include <unordered_map>
 #include <utility>
 
 namespace halflit::c {
@@ -58,6 +57,7 @@ public:
         sound_ = false;
         return 0;
     }
+    void refuse() { sound_ = false; }
     [[nodiscard]] bool sound() const { return sound_; }
     [[nodiscard]] bool ended() const { return bytes_.empty(); }
 
@@ -66,8 +66,25 @@ private:
     bool sound_ = true;
 };
 
+/// Whether each of its bytes is a part of its value, and any bytes make one. Structs with padding or truths are visited by member.
+template <class T>
+constexpr bool kIsPlain = !std::is_same_v<T, bool> && (std::is_arithmetic_v<T> || std::is_enum_v<T>);
+#define HALFLIT_PLAIN(T, Number, count) \
+    template <>                         \
+    constexpr bool kIsPlain<T> = sizeof(T) == (count) * sizeof(Number);
+HALFLIT_PLAIN(Vec2f, float, 2)
+HALFLIT_PLAIN(Vec3f, float, 3)
+HALFLIT_PLAIN(Vec4f, float, 4)
+HALFLIT_PLAIN(Vec3d, double, 3)
+HALFLIT_PLAIN(Mat4, float, 16)
+HALFLIT_PLAIN(ViewSides, float, 4)
+HALFLIT_PLAIN(Ambient, float, 6)
+HALFLIT_PLAIN(NodeTransform, double, 12)
+HALFLIT_PLAIN(Sampler, std::uint8_t, 5)
+#undef HALFLIT_PLAIN
+
 template <class Io, class T>
-requires std::is_trivially_copyable_v<T>
+requires kIsPlain<T>
 void visit(Io& io, T& value) { io.raw(&value, sizeof value); }
 template <class Io>
 void visit(Io& io, bool& truth) {
@@ -80,6 +97,10 @@ void visit(Io& io, std::string& text) {
     text.resize(io.count(text.size(), 1));
     io.raw(text.data(), text.size());
 }
+template <class Io>
+void visit(Io& io, Light& light);
+template <class Io>
+void visit(Io& io, Instance& instance);
 template <class Io>
 void visit(Io& io, Mesh& mesh);
 template <class Io>
@@ -97,11 +118,11 @@ void visit(Io& io, FreePlaces& places);
 
 template <class Io, class T>
 void visit(Io& io, std::vector<T>& list) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
+    if constexpr (kIsPlain<T>) {
         list.resize(io.count(list.size(), sizeof(T)));
         io.raw(list.data(), list.size() * sizeof(T));
     } else {
-        list.resize(io.count(list.size(), sizeof(std::uint64_t)));  // each has a list or a text
+        list.resize(io.count(list.size(), sizeof(std::uint64_t)));  // each takes more
         for (T& one : list) visit(io, one);
     }
 }
@@ -131,6 +152,23 @@ void all(Io& io, Values&... values) {
     (visit(io, values), ...);
 }
 
+template <class Io>
+void visit(Io& io, Light& l) {
+    all(io, l.type, l.color_linear, l.position_ws, l.direction_ws, l.range, l.source_radius, l.inner_cone_rad, l.outer_cone_rad);
+    all(io, l.cone_power, l.shadow_radius);
+}
+template <class Io>
+void visit(Io& io, Instance& i) {
+    all(io, i.mesh, i.world_from_object, i.material, i.color, i.visible, i.backdrop);
+}
+template <class Io>
+void visit(Io& io, TextureUse& use) {
+    all(io, use.texture, use.uv_set, use.sampler, use.row_u, use.row_v);
+}
+template <class Io>
+void visit(Io& io, Lobe& lobe) {
+    all(io, lobe.wrap, lobe.power, lobe.normalize);
+}
 template <class Io>
 void visit(Io& io, Mesh& m) {
     all(io, m.name, m.positions, m.normals, m.tangents, m.uv0, m.uv1, m.colors, m.indices, m.material, m.topology);
@@ -172,7 +210,8 @@ void visit(Io& io, Texture& t) {
         std::vector<std::uint16_t> texels;
         visit(io, texels);
         t = {};
-        if (values == 0 || texels.size() != values) return;
+        if (rule > MipRule::normal || texels.size() != values) return io.refuse();
+        if (values == 0) return;
         if (auto made = Texture::from_rgba16(texels, width, height, rule)) t = std::move(*made);
     } else {
         io.count(values, sizeof(std::uint16_t));
@@ -191,7 +230,7 @@ void visit(Io& io, EnvironmentSource& e) {
     all(io, e.image.width, e.image.height, e.image.rgb, e.image.calibrated, e.rotate_rad, e.has_suns, e.kept_light);
 }
 
-/// What is archived of a scene's handle.
+/// The parts of a scene's handle that are kept.
 struct Archive {
     std::string version = halflit::version();
     std::size_t struct_size = sizeof(halflit_material) + sizeof(Mat4);

@@ -24,6 +24,7 @@ namespace halflit::c {
 inline void put(Vec3f v, float to[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 [[nodiscard]] inline Vec3d vec3(const double v[3]) { return {v[0], v[1], v[2]}; }
 inline void put(Vec3d v, double to[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
+inline void put(Vec3d v, float to[3]) { to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y), to[2] = static_cast<float>(v.z); }
 [[nodiscard]] Mat4 mat4(const float m[16]);
 void put(const Mat4& m, float to[16]);
 

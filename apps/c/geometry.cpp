@@ -229,6 +229,7 @@ int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, i
             scene->changes.structure();
         else
             scene->changes.mesh(at);
+        scene->world.forget_mesh_scale(at);
         scene->put_given_mesh(at, std::move(*made), is_smooth(mesh));
         scene->free_meshes.fill(at);
         tell(at, index);

@@ -160,8 +160,12 @@ int32_t halflit_scene_get_placement(const halflit_scene* scene, double origin[3]
     });
 }
 
-int32_t halflit_scene_get_box(const halflit_scene* scene, double min[3], double max[3]) {
-    return reading(__func__, scene, {{min, "min"}, {max, "max"}}, [&]() -> Result<void> {
+namespace {
+
+/// The box of halflit_scene_get_box or halflit_scene_get_bounds.
+template <class T>
+std::int32_t get_box(const char* function, const halflit_scene* scene, T* min, T* max) {
+    return reading(function, scene, {{min, "min"}, {max, "max"}}, [&]() -> Result<void> {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         const Vec3d all{kInfinity, kInfinity, kInfinity};
         const World::Box box = scene->world.out(scene_bounds(scene->scene)).value_or(World::Box{all, all * -1.0});
@@ -171,14 +175,11 @@ int32_t halflit_scene_get_box(const halflit_scene* scene, double min[3], double 
     });
 }
 
-int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) {
-    if (const auto ok = check_pointers(__func__, {{min, "min"}, {max, "max"}}); !ok)
-        return record_failure(ok.error().code, "", ok.error().message.c_str());
-    double low[3], high[3];
-    if (const std::int32_t code = halflit_scene_get_box(scene, low, high); code != 0) return code;
-    for (int i = 0; i < 3; ++i) min[i] = static_cast<float>(low[i]), max[i] = static_cast<float>(high[i]);
-    return 0;
-}
+}  // namespace
+
+int32_t halflit_scene_get_box(const halflit_scene* scene, double min[3], double max[3]) { return get_box(__func__, scene, min, max); }
+
+int32_t halflit_scene_get_bounds(const halflit_scene* scene, float min[3], float max[3]) { return get_box(__func__, scene, min, max); }
 
 int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material) {
     return reading(__func__, scene, {{material, "material"}}, [&]() -> Result<void> {
@@ -278,8 +279,8 @@ int32_t halflit_scene_get_camera(const halflit_scene* scene, int32_t index, half
     return reading(__func__, scene, {{camera, "camera"}}, [&]() -> Result<void> {
         const auto at = check_index(index, scene->scene.cameras.size(), "camera");
         if (!at) return tl::unexpected<Error>(at.error());
-        const CallersCamera told = scene->world.out(scene->scene.cameras[*at]);
-        halflit_camera found = to_c(told);
+        const CallersCamera found_camera = scene->world.out(scene->scene.cameras[*at]);
+        halflit_camera found = to_c(found_camera);
         found.name = scene->scene.cameras[*at].name.c_str();  // valid as long as the scene
         return write_struct(found, camera, "halflit_camera");
     });

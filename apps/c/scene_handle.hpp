@@ -18,7 +18,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace halflit::c {
@@ -71,7 +70,7 @@ private:
 };
 
 /// A mesh as it was given, if the scene's mesh has normals or tangents that the library made: its vertices may be split.
-using GivenMeshes = std::unordered_map<std::size_t, Mesh>;
+using GivenMeshes = std::map<std::size_t, Mesh>;
 
 }  // namespace halflit::c
 
@@ -80,7 +79,7 @@ struct halflit_scene {
     std::vector<std::string> warnings;
     std::vector<halflit::AnimationInfo> animations;
     std::shared_ptr<const halflit::Motion> motion;      ///< null: not kept
-    halflit::c::World world;                            ///< what is given and told goes through it
+    halflit::c::World world;                            ///< what is passed in and returned goes through it
     bool up_is_set = false;                             ///< by the caller
     std::vector<halflit::Node> nodes;                   ///< of the file; their instances with the skinned ones
     std::vector<int> node_of_instance;                  ///< of the first instances, which a file may have brought; -1: none

@@ -1,5 +1,6 @@
 #include "apps/c/world.hpp"
 
+#include "apps/io/models/scaled_lengths.hpp"
 #include "sh/vec3d.hpp"
 
 #include <algorithm>
@@ -9,28 +10,11 @@
 namespace halflit::c {
 namespace {
 
-constexpr double kLargest = 3e38;  // a finite float
+using io::scaled, io::scale_lengths;
 
 Vec3f rounded(Vec3d p) {
-    const auto within = [](double x) { return std::isfinite(x) ? std::clamp(x, -kLargest, kLargest) : x; };
+    const auto within = [](double x) { return std::isfinite(x) ? std::clamp(x, -io::kLargestLength, io::kLargestLength) : x; };
     return to_float({within(p.x), within(p.y), within(p.z)});
-}
-
-float scaled(float length, double factor) { return static_cast<float>(std::clamp(double{length} * factor, -kLargest, kLargest)); }
-
-void scale_lengths(Camera& camera, double factor) {
-    for (float* const length : {&camera.near_z, &camera.far_z, &camera.half_height, &camera.half_width}) *length = scaled(*length, factor);
-    if (!camera.orthographic || !camera.sides) return;
-    for (float* const side : {&camera.sides->left, &camera.sides->right, &camera.sides->bottom, &camera.sides->top})
-        *side = scaled(*side, factor);
-}
-
-/// A light's lengths and its colour, which falls with the squared distance.
-void scale_lengths(Light& light, double factor) {
-    if (!kind_of(light.type).placed) return;
-    for (float* const length : {&light.range, &light.source_radius, &light.shadow_radius}) *length = scaled(*length, factor);
-    for (float* const channel : {&light.color_linear.x, &light.color_linear.y, &light.color_linear.z})
-        *channel = scaled(*channel, factor * factor);
 }
 
 Vec3d column(const Mat4& m, int i) { return {m.c[i].x, m.c[i].y, m.c[i].z}; }
@@ -103,13 +87,13 @@ Camera World::into(const CallersCamera& given) const {
 }
 
 CallersCamera World::out(const Camera& drawn) const {
-    CallersCamera told{drawn, {}};
+    CallersCamera returned{drawn, {}};
     const FinePoint place = out(column(drawn.world_from_camera, 3));
-    told.rest = place.rest;
-    told.camera.world_from_camera = turned_back(drawn.world_from_camera, at_.up);
-    told.camera.world_from_camera.c[3] = column(place.point, 1);
-    scale_lengths(told.camera, 1.0 / at_.scale);
-    return told;
+    returned.rest = place.rest;
+    returned.camera.world_from_camera = turned_back(drawn.world_from_camera, at_.up);
+    returned.camera.world_from_camera.c[3] = column(place.point, 1);
+    scale_lengths(returned.camera, 1.0 / at_.scale);
+    return returned;
 }
 
 Light World::into(const CallersLight& given) const {
@@ -121,12 +105,12 @@ Light World::into(const CallersLight& given) const {
 }
 
 CallersLight World::out(const Light& drawn) const {
-    CallersLight told{drawn, {}};
+    CallersLight returned{drawn, {}};
     const FinePoint place = out(to_double(drawn.position_ws));
-    told.light.position_ws = to_float(place.point), told.rest = place.rest;
-    told.light.direction_ws = to_float(turned_back(to_double(drawn.direction_ws), at_.up));
-    scale_lengths(told.light, 1.0 / at_.scale);
-    return told;
+    returned.light.position_ws = to_float(place.point), returned.rest = place.rest;
+    returned.light.direction_ws = to_float(turned_back(to_double(drawn.direction_ws), at_.up));
+    scale_lengths(returned.light, 1.0 / at_.scale);
+    return returned;
 }
 
 Mat4 World::into(const Placing& given, int mesh) const {
@@ -140,9 +124,9 @@ CallersInstance World::out(const Instance& drawn) const {
     const Mat4& m = drawn.world_from_object;
     const auto turned = [&](int i) { return column(turned_back(column(m, i) * size, at_.up), 0); };
     const FinePoint place = out(column(m, 3));
-    CallersInstance told{drawn, place.rest};
-    told.instance.world_from_object = {{turned(0), turned(1), turned(2), column(place.point, 1)}};
-    return told;
+    CallersInstance returned{drawn, place.rest};
+    returned.instance.world_from_object = {{turned(0), turned(1), turned(2), column(place.point, 1)}};
+    return returned;
 }
 
 void World::into(Mesh& mesh, std::size_t index) const {
@@ -168,8 +152,8 @@ void World::out(const halflit_target& target, const Region& region) const {
         for (const auto& [plane, row_bytes] :
              {std::pair(target.normal, target.normal_row_bytes), std::pair(target.shading_normal, target.shading_normal_row_bytes)})
             rows.each(plane, row_bytes, 3, [&](float* p, int, int) {
-                const Vec3f told = to_float(turned_back(Vec3d{p[0], p[1], p[2]}, at_.up));
-                p[0] = told.x, p[1] = told.y, p[2] = told.z;
+                const Vec3f returned = to_float(turned_back(Vec3d{p[0], p[1], p[2]}, at_.up));
+                p[0] = returned.x, p[1] = returned.y, p[2] = returned.z;
             });
     const auto shows = [&](int x, int y) {
         if (!moves()) return true;
@@ -178,8 +162,8 @@ void World::out(const halflit_target& target, const Region& region) const {
     };
     rows.each(target.position, target.position_row_bytes, 3, [&](float* p, int x, int y) {
         if (!shows(x, y)) return;
-        const Vec3f told = rounded(at_.out(Vec3d{p[0], p[1], p[2]}));
-        p[0] = told.x, p[1] = told.y, p[2] = told.z;
+        const Vec3f returned = rounded(at_.out(Vec3d{p[0], p[1], p[2]}));
+        p[0] = returned.x, p[1] = returned.y, p[2] = returned.z;
     });
     const auto smaller = static_cast<float>(1.0 / at_.scale);  // a power of two; infinity stays
     if (smaller != 1.0f) rows.each(target.depth, target.depth_row_bytes, 1, [=](float* d, int, int) { *d *= smaller; });

@@ -1,5 +1,5 @@
-// The caller's world and the one that is drawn. Everything that is given and told has the coordinates of the file, or of the caller's
-// arrays; what is drawn has y up, lies near the origin and is neither tiny nor huge.
+// The caller's world and the one that is drawn. What is passed in and returned has the coordinates of the file, or of the caller's arrays.
+// What is drawn has y up, lies near the origin and is neither tiny nor huge.
 #pragma once
 
 #include "halflit/halflit.h"
@@ -48,6 +48,10 @@ public:
     void set_up(UpAxis up) { at_.up = up; }
     /// The mesh's positions are multiplied by this.
     void set_mesh_scale(std::size_t mesh, double scale);
+    /// The place of a mesh is another's from now on, whose positions are as they were given.
+    void forget_mesh_scale(std::size_t mesh) {
+        if (mesh < at_.mesh_scales.size()) at_.mesh_scales[mesh] = 1.0;
+    }
 
     [[nodiscard]] Vec3d into(const FinePoint& p) const;
     [[nodiscard]] FinePoint out(Vec3d p) const;
@@ -68,9 +72,9 @@ public:
     /// Lengths of settings.
     [[nodiscard]] Settings into(Settings given) const;
     [[nodiscard]] Settings out(Settings drawn) const;
-    /// A frame's planes, in place. Where positions move(), `target` has a plane of depth or instance too, which tells where a surface is.
+    /// A frame's planes, in place. Where positions move(), `target` has a plane of depth or instance too, which shows where a surface is.
     void out(const halflit_target& target, const Region& region) const;
-    /// Whether out() of positions needs a plane that tells where a surface is.
+    /// Whether out() of positions needs a plane that shows where a surface is.
     [[nodiscard]] bool moves() const { return !(at_.origin == Vec3d{}); }
 
 private:

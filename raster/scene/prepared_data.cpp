@@ -217,6 +217,7 @@ Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& exe
 Result<void> PreparedData::update(const SceneChanges& changes, const Execution& execution) {
     up_to_date_ = false;
     auto result = guarded("updating a scene", execution, [&]() -> Result<void> {
+        const WorkLimit work(scene_->frame_work);
         if (auto ok = note(changes); !ok) return ok;
         return apply_pending(execution);
     });

@@ -3,8 +3,10 @@
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/placed_point.hpp"
+#include "raster/view/culling.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 
 #include <algorithm>
@@ -17,17 +19,9 @@ namespace {
 /// Planes at most this many times as far apart as the scene is deep and wide stay where they are: those of cameras that halflit places do.
 constexpr double kMostRoom = 8.0;
 
-/// Least and largest distance along the view axis of a box.
-struct DepthSpan {
-    double nearest, farthest;
-
-    DepthSpan(const Camera& camera, const Bounds& box) {
-        const Vec3d back = axis(camera.world_from_camera, 2), eye = axis(camera.world_from_camera, 3);
-        const Vec3d middle = (to_double(box.min) + to_double(box.max)) * 0.5, half = (to_double(box.max) - to_double(box.min)) * 0.5;
-        const double centre = dot(eye - middle, back), reach = dot(half, absolute(back));
-        nearest = centre - reach, farthest = centre + reach;
-    }
-};
+DepthSpan depth_span(const Camera& camera, const Bounds& box) {
+    return {axis(camera.world_from_camera, 3), axis(camera.world_from_camera, 2), box};
+}
 
 /// The corners of a surface's part in the view: x and y in shares of half the picture, times w, and the distance along the view axis.
 struct CutCorner {
@@ -37,8 +31,8 @@ struct CutCorner {
 /// Whether some part of a triangle lies in the picture and between two distances.
 class CutZone {
 public:
-    CutZone(const Camera& camera, float aspect, double from, double to)
-        : clip_(clip_from_world(camera, aspect)),
+    CutZone(const Mat4& clip_from_world, const Camera& camera, double from, double to)
+        : clip_(clip_from_world),
           back_(axis(camera.world_from_camera, 2)),
           eye_(axis(camera.world_from_camera, 3)),
           orthographic_(camera.orthographic),
@@ -104,24 +98,39 @@ std::array<Vec3d, 8> corners_of_box(const Box& at, const Mat4& world_from_object
     return out;
 }
 
-bool cuts_instance(const PreparedData& scene, std::size_t index, const CutZone& zone) {
+bool cuts_instance(const PreparedData& scene, std::size_t index, const View& view, const CutZone& zone) {
+    constexpr std::uint64_t kUnitsAGroup = 1024, kUnitsATriangle = 32;
     const Instance& instance = scene.scene().instances[index];
+    const Mat4& placed = instance.world_from_object;
     const PreparedMesh& prepared = scene.mesh(instance.mesh);
     const Mesh& mesh = scene.scene().meshes[static_cast<std::size_t>(instance.mesh)];
-    const bool mirrored = determinant3(instance.world_from_object) < 0.0,
-               both_sides = scene.material(scene.material_of(index)).double_sided;
-    for (std::size_t c = 0; c < prepared.cluster_count(); ++c) {
-        const Cluster& cluster = prepared.clusters[c];
-        const auto corner = [&](unsigned x, unsigned y, unsigned z) {
-            return Vec3d{(x != 0 ? cluster.max : cluster.min)[0], (y != 0 ? cluster.max : cluster.min)[1],
-                         (z != 0 ? cluster.max : cluster.min)[2]};
-        };
-        if (!cluster.finite || zone.is_outside(corners_of_box(corner, instance.world_from_object))) continue;
+    const bool mirrored = determinant3(placed) < 0.0, both_sides = scene.material(scene.material_of(index)).double_sided;
+    const Culler culler(view, multiply_in_double(view.clip_from_world, placed), mirrored, !both_sides);
+    const auto outside = [&](Vec3f min, Vec3f max) {
+        const auto corner = [&](bool x, bool y, bool z) { return Vec3f{x ? max.x : min.x, y ? max.y : min.y, z ? max.z : min.z}; };
+        return zone.is_outside(corners_of_box(corner, placed));
+    };
+    const auto cuts_cluster = [&](std::size_t c) {
         const IndexRange range = indices_of_cluster(mesh, c);
+        check_time();
+        charge_work(kUnitsATriangle * (range.end - range.begin) / 3);
         for (std::size_t i = range.begin; i + 3 <= range.end; i += 3) {
             std::array<Vec3d, 3> p{};
-            for (std::size_t k = 0; k < 3; ++k) p[k] = placed_in_double(instance.world_from_object, mesh.positions[mesh.indices[i + k]]);
-            if (!zone.is_outside(p) && (both_sides || !zone.faces_away(p, mirrored)) && zone.holds_part(p)) return true;
+            for (std::size_t k = 0; k < 3; ++k) p[k] = placed_in_double(placed, mesh.positions[mesh.indices[i + k]]);
+            if ((both_sides || !zone.faces_away(p, mirrored)) && !zone.is_outside(p) && zone.holds_part(p)) return true;
+        }
+        return false;
+    };
+    for (std::size_t s = 0; s < prepared.superclusters.size(); ++s) {
+        charge_work(kUnitsAGroup);
+        const Bounds& all = prepared.superclusters[s];
+        if (all.empty || outside(all.min, all.max)) continue;
+        const std::size_t end = std::min((s + 1) * kSuperclusterSize, prepared.cluster_count());
+        for (std::size_t c = s * kSuperclusterSize; c < end; ++c) {
+            const Cluster& one = prepared.clusters[c];
+            if (!one.finite || culler.faces_away(one)) continue;
+            if (outside({one.min[0], one.min[1], one.min[2]}, {one.max[0], one.max[1], one.max[2]})) continue;
+            if (cuts_cluster(c)) return true;
         }
     }
     return false;
@@ -129,11 +138,17 @@ bool cuts_instance(const PreparedData& scene, std::size_t index, const CutZone& 
 
 }  // namespace
 
+DepthSpan::DepthSpan(Vec3d eye, Vec3d back, const Bounds& box) {
+    const Vec3d middle = (to_double(box.min) + to_double(box.max)) * 0.5, half = (to_double(box.max) - to_double(box.min)) * 0.5;
+    const double centre = dot(eye - middle, back), reach = dot(half, absolute(back));
+    nearest = centre - reach, farthest = centre + reach;
+}
+
 Camera drawn_camera(const Camera& camera, const PreparedData& scene) {
     Camera drawn = completed(camera, scene.framed_bounds());
     const Bounds& box = scene.bounds();
     if (!drawn.orthographic || box.empty || !finite(drawn.near_z)) return drawn;
-    const DepthSpan span(drawn, box);
+    const DepthSpan span = depth_span(drawn, box);
     const double deep = span.farthest - span.nearest, radius = box.radius(), room = deep + radius;
     if (!(room > 0.0 && room < 1e37)) return drawn;
     const bool has_far = finite(drawn.far_z) && drawn.far_z > drawn.near_z;
@@ -145,21 +160,21 @@ Camera drawn_camera(const Camera& camera, const PreparedData& scene) {
     return drawn;
 }
 
-void add_cut_warning(const PreparedData& scene, const Camera& camera, float aspect, std::vector<std::string>& warnings) {
+void add_cut_warning(const PreparedData& scene, const Camera& camera, const View& view, std::vector<std::string>& warnings) {
     const double near_z = camera.near_z;
-    if (scene.bounds().empty || !finite(camera.near_z) || !(DepthSpan(camera, scene.bounds()).nearest < near_z)) return;
+    if (scene.bounds().empty || !finite(camera.near_z) || !(depth_span(camera, scene.bounds()).nearest < near_z)) return;
     const std::vector<Instance>& instances = scene.scene().instances;
     std::size_t first = 0, count = 0;
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const Bounds& box = scene.instance_bounds()[i];
         if (box.empty || !counts_for_views(scene.scene(), instances[i])) continue;
         if (scene.scene().meshes[static_cast<std::size_t>(instances[i].mesh)].topology != Topology::triangles) continue;
-        const DepthSpan span(camera, box);
+        const DepthSpan span = depth_span(camera, box);
         if (!(span.nearest < near_z)) continue;
         const bool crosses = camera.orthographic && span.farthest > near_z;
         const double from = crosses ? span.nearest - 1.0 : 0.0;
         if (!(from < near_z && span.farthest > from)) continue;
-        if (!cuts_instance(scene, i, CutZone(camera, aspect, from, near_z))) continue;
+        if (!cuts_instance(scene, i, view, CutZone(view.clip_from_world, camera, from, near_z))) continue;
         if (count++ == 0) first = i;
     }
     if (count == 0) return;

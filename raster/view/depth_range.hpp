@@ -3,11 +3,18 @@
 
 #include "halflit/camera.hpp"
 #include "raster/scene/prepared_data.hpp"
+#include "raster/view/view.hpp"
 
 #include <string>
 #include <vector>
 
 namespace halflit::raster {
+
+/// Least and largest distance of a box along a view axis. back: unit vector against the view.
+struct DepthSpan {
+    double nearest, farthest;
+    DepthSpan(Vec3d eye, Vec3d back, const Bounds& box);
+};
 
 /// completed(), with an orthographic camera's planes drawn in to the scene if they lie far outside of it: depths by parallel rays are
 /// float32 shares of the way between the planes, so that planes far apart would leave none for the scene. The picture is cut as before.
@@ -16,7 +23,7 @@ namespace halflit::raster {
 
 /// Adds a warning that names what the near plane cuts off, or hides as a whole, in the picture: surfaces between the eye and the plane, and
 /// of an orthographic camera, which sees what is behind its eye where nothing is cut, those that cross the plane.
-/// camera: of drawn_camera().
-void add_cut_warning(const PreparedData& scene, const Camera& camera, float aspect, std::vector<std::string>& warnings);
+/// camera: of drawn_camera(). view: its picture.
+void add_cut_warning(const PreparedData& scene, const Camera& camera, const View& view, std::vector<std::string>& warnings);
 
 }  // namespace halflit::raster

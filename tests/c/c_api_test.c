@@ -168,7 +168,7 @@ static void test_null_pointers(void) {
     CHECK_FAILS(halflit_scene_place_instance(cube.scene, 0, NULL), HALFLIT_ERROR_USAGE, "world_from_object is null");
     CHECK_FAILS(halflit_scene_set_environment(cube.scene, NULL, 1, 1, NULL), HALFLIT_ERROR_USAGE, "rgb is null");
     CHECK_FAILS(halflit_scene_get_counts(cube.scene, NULL), HALFLIT_ERROR_USAGE, "counts is null");
-    CHECK_FAILS(halflit_scene_get_bounds(cube.scene, NULL, matrix), HALFLIT_ERROR_USAGE, "min is null");
+    CHECK_FAILS(halflit_scene_get_bounds(cube.scene, NULL, matrix), HALFLIT_ERROR_USAGE, "halflit_scene_get_bounds: min is null");
     CHECK_FAILS(halflit_camera_look_at(NULL, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "eye is null");
     CHECK_FAILS(halflit_choose_picture(cube.scene, NULL, NULL, NULL, NULL, NULL), HALFLIT_ERROR_USAGE, "camera is null");
     CHECK_FAILS(halflit_renderer_create(NULL, NULL), HALFLIT_ERROR_USAGE, "renderer is null");
@@ -1767,7 +1767,7 @@ static void keep_bytes(void* user, const void* bytes, size_t count) {
 static void test_saved_scenes(void) {
     Cube cube = make_cube();
     const uint64_t before = draw_cube(NULL, &cube);
-    Kept kept = {NULL, 0};
+    Kept kept = {NULL, 0}, again = {NULL, 0};
     size_t cut;
     halflit_scene* scene;
     Cube same = cube;
@@ -1776,6 +1776,9 @@ static void test_saved_scenes(void) {
     CHECK_OK(halflit_scene_restore(scene, kept.bytes, kept.count));
     same.scene = scene;
     CHECK(draw_cube(NULL, &same) == before);
+    CHECK_OK(halflit_scene_save(scene, keep_bytes, &again));  // equal scenes have equal bytes
+    CHECK(again.count == kept.count && memcmp(again.bytes, kept.bytes, kept.count) == 0);
+    free(again.bytes);
     for (cut = 0; cut < kept.count; cut += 1 + cut / 3)
         CHECK_FAILS(halflit_scene_restore(scene, kept.bytes, cut), HALFLIT_ERROR_BAD_INPUT, "expected the bytes of a scene");
     ((unsigned char*)kept.bytes)[kept.count / 2] ^= 4;

@@ -1,15 +1,18 @@
 """Materials, lights and cameras as objects: what they begin with, copies, and what is told of them."""
 import copy
 import multiprocessing
+import os
 import pickle
+import tempfile
 import unittest
 import warnings
 from concurrent.futures import ProcessPoolExecutor
+from typing import get_args
 
 import numpy as np
 
 import halflit
-from halflit import _options
+from halflit import _mesh, _options, _types
 from support import CAMERA, CORNERS, FACES, TURN, box, moved
 
 
@@ -69,6 +72,34 @@ class Records(unittest.TestCase):
         damaged[len(damaged) // 2] ^= 1
         with self.assertRaisesRegex(halflit.BadInputError, "expected the bytes of a scene"):
             halflit.Scene()._change("scene_restore", bytes(damaged), len(damaged))
+
+    def test_the_types_of_names_have_the_names_that_there_are(self):
+        self.assertEqual(sorted(get_args(_types.Aov)), sorted(_options.AOVS))
+        self.assertEqual(get_args(_types.Topology), tuple(_mesh.CORNERS))
+        with self.assertRaises(halflit.UsageError) as refused:
+            halflit.Lobe.named("x")
+        expected = str(refused.exception).split("expected ")[1].replace(" or ", ", ")
+        self.assertEqual(", ".join(get_args(_types.LobeName)), expected)
+        with self.assertRaises(halflit.UsageError) as refused:
+            halflit.Scene.demo().render(8, isa="x")
+        here = str(refused.exception).split("expected auto, ")[1].split(", ")
+        self.assertLessEqual(set(here), set(get_args(_types.Isa)))
+
+    def test_a_copy_of_a_scene_with_animations_needs_its_file_as_it_was(self):
+        with tempfile.TemporaryDirectory() as folder:
+            here, path = os.getcwd(), os.path.join(folder, "box.gltf")
+            with open(path, "wb") as file:
+                file.write(box())
+            try:
+                os.chdir(folder)
+                kept = pickle.dumps(halflit.Scene.load("box.gltf", keep_animations=True))
+            finally:
+                os.chdir(here)
+            self.assertEqual(pickle.loads(kept).counts["meshes"], 1)
+            with open(path, "ab") as file:
+                file.write(b" ")
+            with self.assertRaisesRegex(halflit.UsageError, "box.gltf: changed since"):
+                pickle.loads(kept)
 
     def test_a_scene_reaches_a_process_that_is_spawned(self):
         scene = halflit.Scene.demo()

@@ -82,6 +82,18 @@ class Worlds(unittest.TestCase):
         tiny.add_mesh(CORNERS * 1e-5, FACES, matrix=moved(4e-5, 0, 0))
         self.assertTrue(np.allclose(tiny.bounds, [[-1e-5, -1e-5, -1e-5], [5e-5, 1e-5, 1e-5]], rtol=1e-6))
 
+    def test_the_place_of_a_removed_mesh_has_no_size_left(self):
+        scene = halflit.Scene()
+        instance = scene.add_file(stl(CORNERS[FACES] * 1e-30))
+        mesh = scene.instance(instance[0])[0]
+        for one in instance:
+            scene.remove_instance(one)
+        scene.remove_mesh(mesh)
+        self.assertEqual(scene.add_mesh(CORNERS, FACES), mesh)
+        self.assertEqual(scene.bounds.tolist(), [[-1, -1, -1], [1, 1, 1]])
+        scene.set_mesh(mesh, CORNERS * 2, FACES)
+        self.assertEqual(scene.bounds.tolist(), [[-2, -2, -2], [2, 2, 2]])
+
     def test_lights(self):
         lamp = {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [1e6 + 3, 4, 2 - 3e6]}
         scene = halflit.Scene.load(box(more={"nodes": [{"mesh": 0, **FAR}, lamp], **LAMPS}))

@@ -100,6 +100,18 @@ TEST_CASE("prepared scene: a change that breaks the scene is refused", "[raster]
     }
 }
 
+TEST_CASE("prepared scene: updates are held to the work that the scene may take", "[raster][prepared]") {
+    Scene scene = good_scene();
+    auto prepared = PreparedScene::make(scene);
+    REQUIRE(prepared);
+    scene.frame_work = 1;
+    const auto updated = prepared->update({.changed_instances = {0}});
+    REQUIRE_FALSE(updated);
+    CHECK(updated.error().code == ErrorCode::limit);
+    scene.frame_work = 0;
+    CHECK(prepared->update({}));
+}
+
 TEST_CASE("prepared scene: other numbers of meshes, instances or materials are refused, whatever is told", "[raster][prepared]") {
     void (*const spoil[])(Scene&) = {[](Scene& s) {
                                          s.instances.push_back({1, {}});

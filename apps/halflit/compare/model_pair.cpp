@@ -1,5 +1,6 @@
 #include "apps/halflit/compare/model_pair.hpp"
 
+#include "apps/io/models/scaled_lengths.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "sh/vec3d.hpp"
 
@@ -22,14 +23,10 @@ Result<void> move_into(const Placement& world, RenderJob& job) {
     };
     for (Instance& instance : job.scene().instances)
         for (std::size_t i = 0; i < 4; ++i) moved(instance.world_from_object.c[i], i == 3 ? shift : Vec3d{});
-    const auto times = [](float value, double by) { return static_cast<float>(value * by); };
     for (Light& light : job.scene().lights) {
         if (!kind_of(light.type).placed) continue;
         light.position_ws = to_float(to_double(light.position_ws) * factor + shift);
-        light.range = times(light.range, factor), light.source_radius = times(light.source_radius, factor);
-        light.shadow_radius = times(light.shadow_radius, factor);
-        Vec3f& color = light.color_linear;  // falls with the squared distance
-        color = {times(color.x, factor * factor), times(color.y, factor * factor), times(color.z, factor * factor)};
+        io::scale_lengths(light, factor);
     }
     job.source.placement.origin = world.origin, job.source.placement.scale = world.scale;
     auto prepared = PreparedScene::make(job.scene(), job.timed_execution());

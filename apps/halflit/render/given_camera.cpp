@@ -1,6 +1,7 @@
 #include "apps/halflit/render/given_camera.hpp"
 
 #include "apps/io/files/text.hpp"
+#include "apps/io/models/scaled_lengths.hpp"
 #include "raster/detail/view_math.hpp"
 #include "sh/vec3d.hpp"
 
@@ -11,30 +12,15 @@
 #include <utility>
 
 namespace halflit::cli {
-namespace {
-
-constexpr double kLargest = 3e38;  // a finite float
-
-float scaled(float length, double factor) { return static_cast<float>(std::clamp(length * factor, -kLargest, kLargest)); }
-
-void scale_lengths(Camera& camera, double factor) {
-    for (float* const length : {&camera.near_z, &camera.far_z, &camera.half_height, &camera.half_width}) *length = scaled(*length, factor);
-    if (!camera.orthographic || !camera.sides) return;
-    for (float* const side : {&camera.sides->left, &camera.sides->right, &camera.sides->bottom, &camera.sides->top})
-        *side = scaled(*side, factor);
-}
-
-}  // namespace
-
 Camera placed(const GivenCamera& given, const Placement& placement, const Bounds& bounds) {
     Camera camera = given.lens;
     camera.name = given.name;
     const auto axis = [&](Vec3d v) { return raster::column(turned_upright(v, placement.up), 0); };
-    const auto within = [](double x) { return std::clamp(x, -kLargest, kLargest); };
+    const auto within = [](double x) { return std::clamp(x, -io::kLargestLength, io::kLargestLength); };
     const Vec3d eye = placement.into(given.eye);
     camera.world_from_camera = {
         {axis(given.right), axis(given.up), axis(given.back), raster::column({within(eye.x), within(eye.y), within(eye.z)}, 1)}};
-    scale_lengths(camera, placement.scale);
+    io::scale_lengths(camera, placement.scale);
     return completed(std::move(camera), bounds);
 }
 
@@ -48,7 +34,7 @@ GivenCamera in_file(const Camera& camera, const Placement& placement) {
     given.up = turned_back(vector(1), placement.up);
     given.back = turned_back(vector(2), placement.up);
     given.eye = placement.out(vector(3));
-    scale_lengths(given.lens, 1.0 / placement.scale);
+    io::scale_lengths(given.lens, 1.0 / placement.scale);
     return given;
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/halflit/flags/flags.hpp"
 #include "apps/halflit/program/messages.hpp"
+#include "raster/view/depth_range.hpp"
 #include "sh/vec3d.hpp"
 
 #include <fmt/core.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace halflit::cli {
@@ -41,17 +41,6 @@ void each_key(View& view, const Visit& visit) {
     if (!view.empty) point("low", view.low), point("high", view.high);
     visit("point_size", std::vector{&view.point_size});
     point("background", view.background);
-}
-
-/// Distances of the box's nearest and farthest corner along the view axis.
-std::pair<double, double> depths(Vec3d back, Vec3d eye, const Bounds& bounds) {
-    double nearest = std::numeric_limits<double>::max(), farthest = -nearest;
-    for (unsigned i = 0; i < 8; ++i) {
-        const Vec3d p{i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y, i & 4 ? bounds.max.z : bounds.min.z};
-        const double depth = dot(eye - p, back);
-        nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
-    }
-    return {nearest, farthest};
 }
 
 }  // namespace
@@ -90,7 +79,7 @@ Camera camera_of(const KeptView& view, const Placement& placement, const Bounds&
         camera.fov_y_rad = static_cast<float>(view.fov_y_rad);
     double near_z = view.near_z * scale, far_z = view.far_z * scale;
     if (!bounds.empty) {
-        const auto [nearest, farthest] = depths(back, eye, bounds);
+        const auto [nearest, farthest] = raster::DepthSpan(eye, back, bounds);
         if (view.orthographic) {
             const double room = 1e-3 * (far_z - near_z);
             if (nearest < near_z + room) near_z = nearest - room;

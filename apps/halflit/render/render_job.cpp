@@ -8,6 +8,7 @@
 #include "apps/halflit/render/scene_view.hpp"
 #include "apps/halflit/render/section_flags.hpp"
 #include "apps/io/files/text.hpp"
+#include "apps/io/models/scaled_lengths.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/process.hpp"
 #include "halflit/auto_setup.hpp"
@@ -297,9 +298,8 @@ void tell_choices(RenderJob& job, const RenderOptions& given) {
 /// picture.
 RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, PictureSize usual) {
     const Placement& place = source.placement;
-    const auto times = [](float value, double factor) { return static_cast<float>(std::clamp(value * factor, -3e38, 3e38)); };
     const auto placed = [&](Vec3d p) {
-        const auto within = [](double x) { return std::clamp(x, -3e38, 3e38); };
+        const auto within = [](double x) { return std::clamp(x, -io::kLargestLength, io::kLargestLength); };
         const Vec3d at = place.into(p);
         return Vec3d{within(at.x), within(at.y), within(at.z)};
     };
@@ -317,18 +317,13 @@ RenderOptions in_drawn_world(RenderOptions options, const SceneSource& source, P
             view.azimuth_deg = static_cast<float>(angle_of(n.x, n.z) * kDegrees);
             view.elevation_deg = static_cast<float>(angle_of(n.y, std::sqrt(n.x * n.x + n.z * n.z)) * kDegrees);
         }
-    options.settings.shadow_fade = times(options.settings.shadow_fade, place.scale);
-    options.lamp_size = times(options.lamp_size, place.scale);
+    options.settings.shadow_fade = io::scaled(options.settings.shadow_fade, place.scale);
+    options.lamp_size = io::scaled(options.lamp_size, place.scale);
     for (auto& [light, position] : options.lights) {
         light.direction_ws = to_float(turned_upright(to_double(light.direction_ws), place.up));
         if (!kind_of(light.type).placed) continue;
         light.position_ws = to_float(placed(position));
-        light.range = times(light.range, place.scale);
-        light.source_radius = times(light.source_radius, place.scale);
-        light.shadow_radius = times(light.shadow_radius, place.scale);
-        Vec3f& color = light.color_linear;  // falls with the squared distance
-        const double brighter = place.scale * place.scale;
-        color = {times(color.x, brighter), times(color.y, brighter), times(color.z, brighter)};
+        io::scale_lengths(light, place.scale);
     }
     return options;
 }

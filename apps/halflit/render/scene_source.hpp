@@ -32,7 +32,7 @@ struct ShownUnit {
     std::string name;  ///< "mm", "m", or empty: the format has none
     double per_drawn_unit = 1.0;
 };
-/// That of a file.
+/// The unit of the scene's file.
 [[nodiscard]] ShownUnit file_unit(const SceneSource& source);
 
 /// Name of standard input in messages.

@@ -4,6 +4,7 @@
 #include "apps/halflit/report/measures_json.hpp"
 #include "apps/halflit/report/part_list.hpp"
 #include "apps/halflit/report/run_report.hpp"
+#include "apps/io/models/scaled_lengths.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/scene/mesh_topology.hpp"
 #include "sh/time_limit.hpp"
@@ -90,16 +91,15 @@ Json counts_json(const Scene& scene, const Lighting& light) {
             {"points_drawn", points}};
 }
 
-/// Coordinates and lengths are the file's; so is the colour of a light at distance 1.
+/// Coordinates and lengths are the file's, in metres for 3MF; so is the colour of a light at distance 1.
 Json lights_json(const Lighting& drawn, const Placement& placement) {
     Json lights = Json::array();
-    for (const Light& light : drawn.all_lights()) {
-        const bool placed = kind_of(light.type).placed;
-        const double unit = 1.0 / placement.scale, dimmer = placed ? unit * unit : 1.0;
-        Json one{{"type", kind_of(light.type).name}, {"color", vector_json(to_float(to_double(light.color_linear) * dimmer))}};
-        if (placed) one["position"] = vector_json(to_float(placement.out(to_double(light.position_ws))));
+    for (Light light : drawn.all_lights()) {
+        io::scale_lengths(light, 1.0 / placement.scale);
+        Json one{{"type", kind_of(light.type).name}, {"color", vector_json(light.color_linear)}};
+        if (kind_of(light.type).placed) one["position"] = vector_json(to_float(placement.out(to_double(light.position_ws))));
         if (kind_of(light.type).aimed) one["direction"] = vector_json(to_float(turned_back(to_double(light.direction_ws), placement.up)));
-        if (light.range > 0) one["range"] = json_number(static_cast<float>(light.range * unit));
+        if (light.range > 0) one["range"] = json_number(light.range);
         lights.push_back(std::move(one));
     }
     return lights;

@@ -18,7 +18,7 @@ namespace {
 
 using platform::FileKind, platform::Handle;
 
-/// Reads an open file that must be regular. `no_file` is the code for what is none. Faults of the file system are always io.
+/// Reads an open file that must be regular. `no_file`: the error code if it is not a regular file. Faults of the file system are always io.
 Result<std::vector<std::byte>> read_regular(const Handle& file, std::size_t max_bytes, ErrorCode no_file) {
     platform::FileStatus info;
     if (const int error = platform::status_of(file.get(), info); error != 0)

@@ -151,7 +151,7 @@ struct Layout {
             const std::uint32_t bits = is_float ? std::bit_cast<std::uint32_t>(of(packed)) : whole;
             return {static_cast<float>(bits >> 16 & 255u), static_cast<float>(bits >> 8 & 255u), static_cast<float>(bits & 255u), 1};
         }
-        constexpr double kY0 = 0.28209479177387814;  // of spherical harmonics
+        constexpr double kY0 = 0.28209479177387814;  // the first spherical harmonic: 1 / (2 sqrt(pi))
         const auto share = [&](Slot slot) { return static_cast<float>(std::clamp(0.5 + kY0 * value[slot], 0.0, 1.0)); };
         const double alpha = 1.0 / (1.0 + exp_of(-std::clamp(value[opacity], -80.0, 80.0)));
         return {share(harmonic_0), share(harmonic_1), share(harmonic_2), alpha >= 0 && alpha <= 1 ? static_cast<float>(alpha) : 0.0f};

@@ -255,25 +255,25 @@ SlicerProject read_slicer_project(ThreeMfPackage& package, Document& document) {
     return project;
 }
 
-std::vector<int> plates_by_place(std::span<const DoubleBox> bodies) {
+std::vector<int> plates_by_place(std::span<const DoubleBox> objects) {
     constexpr double kWidths[] = {400, 350, 325, 300, 256, 250, 235, 220, 180};  // millimetres
-    std::vector<int> plates(bodies.size(), 1);
+    std::vector<int> plates(objects.size(), 1);
     const auto is_in_reach = [](const DoubleBox& b) { return b.min.x >= 0 && b.min.x <= b.max.x && b.max.x < 1e5 && b.min.y > -1e5; };
-    if (bodies.size() < 2 || !std::all_of(bodies.begin(), bodies.end(), is_in_reach)) return plates;
+    if (objects.size() < 2 || !std::all_of(objects.begin(), objects.end(), is_in_reach)) return plates;
     for (const double width : kWidths) {
         const double step = 1.2 * width;
         std::map<std::pair<int, int>, int> number;  // of a cell
         std::vector<std::pair<int, int>> cells;
-        for (const DoubleBox& body : bodies) {
-            const double column = std::floor(body.min.x / step), row = std::floor(body.min.y / step);
-            if (body.max.x - column * step > width || body.max.y - row * step > width || row > 0 || row < -100) break;
+        for (const DoubleBox& object : objects) {
+            const double column = std::floor(object.min.x / step), row = std::floor(object.min.y / step);
+            if (object.max.x - column * step > width || object.max.y - row * step > width || row > 0 || row < -100) break;
             cells.emplace_back(static_cast<int>(-row), static_cast<int>(column));
             number[cells.back()] = 0;
         }
-        if (cells.size() < bodies.size()) continue;
+        if (cells.size() < objects.size()) continue;
         int count = 0;
         for (auto& [where, plate] : number) plate = ++count;
-        for (std::size_t i = 0; i < bodies.size(); ++i) plates[i] = number[cells[i]];
+        for (std::size_t i = 0; i < objects.size(); ++i) plates[i] = number[cells[i]];
         return plates;
     }
     return plates;

@@ -44,10 +44,10 @@ struct SlicerProject {
 /// Reads the project of a package, if it holds one. Damaged files of it are left out, with a warning.
 [[nodiscard]] SlicerProject read_slicer_project(ThreeMfPackage& package, Document& document);
 
-/// Plates of bodies, by number from 1, where a project does not name them: slicers lay plates side by side, a fifth of their width between
-/// them. The bodies, in millimetres, belong to several if each stands in a cell of such a grid, of the largest usual printer that this
+/// Plates of objects, by number from 1, where a project does not name them: slicers lay plates side by side, a fifth of their width between
+/// them. The objects, in millimetres, belong to several if each stands in a cell of such a grid, of the largest usual printer that this
 /// holds for; rows count from the top, columns from the left. Otherwise all are on plate 1.
-[[nodiscard]] std::vector<int> plates_by_place(std::span<const DoubleBox> bodies);
+[[nodiscard]] std::vector<int> plates_by_place(std::span<const DoubleBox> objects);
 
 /// A triangle of a painted facet, and the filament that paints it; 0: none.
 struct PaintedTriangle {

@@ -86,7 +86,7 @@ public:
         if (left_out > 0) builder_.document().warn(fmt::format("{} items that are not to be printed are left out", left_out));
         if (helpers_ > 0)
             builder_.document().warn(
-                fmt::format("{} modifiers, negative volumes and supports are left out: they are not printed as bodies", helpers_));
+                fmt::format("{} modifiers, negative volumes and supports are left out: they are not printed", helpers_));
         const bool has_mesh = helpers_ > 0 || left_out > 0 || !builder_.loaded().scene.meshes.empty();
         if (builder_.loaded().scene.instances.empty() && !has_mesh) place_picture();
         return root.model.metres;
@@ -160,7 +160,7 @@ private:
         std::vector<const Component*> items;
         for (const Component& item : root.model.items) items.push_back(&item);
         if (wanted == 0 || items.empty()) return items;
-        const std::vector<int> plate_of = project_.plates.empty() ? plates_of_bodies(root, items) : named_plates(items);
+        const std::vector<int> plate_of = project_.plates.empty() ? plates_of_objects(root, items) : named_plates(items);
         const int plates = project_.plates.empty() ? *std::max_element(plate_of.begin(), plate_of.end()) : project_.plates.rbegin()->first;
         if (plates > 1 && wanted > plates)
             refuse("", fmt::format("plate: the file has {}, expected one of them, found {}", plates, wanted), ErrorCode::usage);
@@ -201,14 +201,14 @@ private:
     }
 
     /// Plates of a slicer's file that does not name them.
-    std::vector<int> plates_of_bodies(const Part& root, const std::vector<const Component*>& items) {
+    std::vector<int> plates_of_objects(const Part& root, const std::vector<const Component*>& items) {
         constexpr std::size_t kMostItems = 256;
         const std::vector<int> one(items.size(), 1);
         if (!root.model.is_of_slicer || items.size() > kMostItems || root.model.metres != 0.001) return one;
-        std::vector<DoubleBox> bodies(items.size());
+        std::vector<DoubleBox> boxes(items.size());
         for (std::size_t i = 0; i < items.size(); ++i)
-            add_bounds(items[i]->path.empty() ? root.name : items[i]->path, *items[i], {}, 0, bodies[i]);
-        return bounds_work_ > kMostBoundsWork ? one : plates_by_place(bodies);
+            add_bounds(items[i]->path.empty() ? root.name : items[i]->path, *items[i], {}, 0, boxes[i]);
+        return bounds_work_ > kMostBoundsWork ? one : plates_by_place(boxes);
     }
 
     /// A file of machine code alone may hold a picture of the plate.

@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import zlib
 from typing import TYPE_CHECKING, Any, BinaryIO, Dict, Tuple, Union
 
 from . import _c
@@ -57,6 +58,17 @@ def loading(source: Any, base_dir: Any, options: Dict[str, Any]) -> Tuple[str, T
     return "add_file", (_c.required(source, "source"), ctypes.byref(how))
 
 
+def sum_of(source: Union[str, bytes]) -> int:
+    """A check sum of the bytes, or of the file that is named so."""
+    if isinstance(source, bytes):
+        return zlib.crc32(source)
+    found = 0
+    with open(source, "rb") as file:
+        while part := file.read(1 << 20):
+            found = zlib.crc32(part, found)
+    return found
+
+
 def load_options(options: Dict[str, Any]) -> Any:
     """The halflit_load_options."""
     how = _c.make("load_options")
@@ -64,7 +76,7 @@ def load_options(options: Dict[str, Any]) -> Any:
         if name == "time":
             how.time_s = finite(value, name)
         elif name not in how._kinds or name in _HIDDEN:
-            raise TypeError(f"Scene.load() has no keyword {name!r}")
+            raise TypeError(f"loading has no keyword {name!r}")
         elif name == "allow_external":
             folders = [value] if isinstance(value, (str, bytes, os.PathLike)) else value  # a text is not a list of letters
             names = [_c.bytes_of(folder, name) for folder in folders]

@@ -14,7 +14,7 @@ from ._lighting import Lighting
 from ._picture_options import PictureOptions, ViewOptions
 from ._setup import Setup
 from ._turntable import Turntable
-from ._loading import Source, loading, made_or_added
+from ._loading import Source, loading, made_or_added, sum_of
 from ._types import Array, BatchLight, Size, Unpack, Up, ViewOf
 from ._values import UP_AXES, finite, listed, up_axis, whole
 
@@ -77,8 +77,8 @@ class Scene(Geometry, Lighting):
         name, arguments = loading(source, base_dir, {**keywords, **options})
         made = cls._of(_c.Handle("scene_" + name.replace("add_file", "load"), "scene_destroy", *arguments))
         if keep_animations:
-            again = arguments[0] if name == "add_file_memory" else os.fsdecode(arguments[0])
-            made._animated = again, {**keywords, **options, "base_dir": base_dir}
+            again = arguments[0] if name == "add_file_memory" else os.path.abspath(os.fsdecode(arguments[0]))
+            made._animated = again, {**keywords, **options, "base_dir": base_dir}, sum_of(again)
         return made
 
     def add_file(

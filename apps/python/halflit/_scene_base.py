@@ -7,6 +7,7 @@ from typing import Any, Dict, List, Optional, Set, TypeVar
 from . import _c
 from ._errors import UsageError
 from ._execution import SceneLock
+from ._loading import sum_of
 
 Self = TypeVar("Self", bound="SceneBase")
 
@@ -26,7 +27,7 @@ class SceneBase:
         self._changes = 0  # of anything that setup() looks at
         self._chosen: Any = None  # what was chosen for the last frame, and the key of what it was chosen for
         self._own_lights = False  # add_light() was called
-        self._animated: Any = None  # arguments of load() with keep_animations
+        self._animated: Any = None  # source and keywords of load() with keep_animations, and sum_of() the source
         self._told: Set[Any] = set()  # warnings that were shown
         self._warnings: Optional[List[str]] = None  # of loading
         self._plain: Dict[bool, int] = {}  # materials of meshes that are given none, lit and unlit
@@ -73,7 +74,8 @@ class SceneBase:
             self._handle = self._renderer = None
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        """A copy, or a pickle, is a scene of its own in the same state. Where it keeps animations, it loads its file again."""
+        """A copy, or a pickle, is a scene of its own in the same state. Where it keeps animations, it loads its file again,
+        which must not have changed."""
         taken: List[bytes] = []
         write = _c.Write(lambda user, bytes, count: taken.append(ctypes.string_at(bytes, count)))
         with self._lock:
@@ -94,6 +96,8 @@ class SceneBase:
 
 
 def _restored(kind: Any, data: bytes, animated: Any, kept: Dict[str, Any]) -> Any:
+    if animated is not None and sum_of(animated[0]) != animated[2]:
+        raise UsageError(f"{animated[0]}: changed since the scene with its animations was loaded")
     scene = kind() if animated is None else kind.load(animated[0], **animated[1])
     scene._change("scene_restore", data, len(data))
     for name, value in kept.items():

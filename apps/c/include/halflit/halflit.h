@@ -11,9 +11,9 @@
 // - Memory: Arrays and strings that are handed over are copied, or used during the call alone. Pictures are drawn into the caller's memory.
 // - Numbers: Truth is an int32_t: 0 or not. Strings are UTF-8. Indices begin at 0. A matrix is 16 floats, column after column; points are
 //   columns. Colours are linear light with Rec. 709 primaries, if nothing else is said.
-// - Coordinates: All that is given and told, cameras, lights, instances, boxes and planes, has the coordinates of the scene's file, or of
-//   the caller's arrays, which are right-handed, in the file's unit. The axis that points up (HALFLIT_UP) decides what views, and the light
-//   from above, call up; it turns nothing.
+// - Coordinates: All that is passed in and returned, cameras, lights, instances, boxes and planes, has the coordinates of the scene's file,
+//   or of the caller's arrays, which are right-handed, in the file's unit (3MF: in metres). The axis that points up (HALFLIT_UP) decides
+//   what views, and the light from above, call up; it turns nothing.
 // - Threads: Different scenes and renderers may be used by different threads at once. Several renderers may draw one scene at once; a call
 //   that would change it meanwhile fails (usage). A renderer draws one frame at a time. Destroy nothing that is in use.
 #ifndef HALFLIT_HALFLIT_H
@@ -105,7 +105,8 @@ typedef struct halflit_load_options {
     int32_t max_texture_side;           ///< texels (16384)
     int32_t max_jpeg_scans;             ///< passes over the picture of a progressive JPEG (64)
     int32_t plate;                      ///< plate of a slicer's project (3MF); 0: all (1)
-    uint64_t max_work;  ///< of loading, and of each frame beside its pixels, ns of one core by estimate; 0: by the file's size (0)
+    /// Most work of loading, and of each frame besides its pixels, in estimated nanoseconds of one core. 0: chosen by the file's size (0)
+    uint64_t max_work;
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 
@@ -721,7 +722,7 @@ typedef struct halflit_execution {
     int32_t (*cancelled)(void* user);  ///< asked before each part of the work; not 0: stop
     /// Told after each tile which pixels are final.
     void (*on_tile)(void* user, int32_t x, int32_t y, int32_t width, int32_t height);
-    void (*progress)(void* user, double share);  ///< told the share that is done, in (0, 1], one call at a time
+    void (*progress)(void* user, double share);  ///< called with the share that is done, in (0, 1], one call at a time
     /// The host's own threads: calls body(task, i) for every i from 0 to count - 1, in any order, on any threads; returns when all are
     /// done.
     void (*parallel_for)(void* user, int32_t count, void (*body)(void* task, int32_t i), void* task);

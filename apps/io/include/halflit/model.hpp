@@ -59,7 +59,8 @@ struct LoadLimits {
     /// objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
     /// Work that loading takes beside reading, and that each frame of the scene takes beside its pixels' (Scene::frame_work), in
-    /// nanoseconds of one core by estimate. 0: by the file's size, 4e9 and 1,000 for each byte, so that no small file takes long.
+    /// nanoseconds of one core by estimate. 0: by size, 2.5e9 and 1,000 for each byte of the file and those it
+    /// names, so that no small file takes long.
     std::uint64_t max_work = 0;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
