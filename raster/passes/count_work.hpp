@@ -1,5 +1,5 @@
-// Counting for WorkCounts: one call per block, next to the call of the kernel that does the work. What a file can ask for without limit, its
-// lights and alpha tests, is charged too (charge_work).
+// Counting for WorkCounts: one call per block, next to the call of the kernel that does the work. What a file can ask for without limit,
+// its lights and alpha tests, is charged too (charge_work).
 #pragma once
 
 #include "halflit/report.hpp"

@@ -143,6 +143,8 @@ void PictureTile::shade(FragmentList& list) {
 void PictureTile::shade(const FragmentList& list, const shading::LightList& lights, shading::FragmentBlock& block) {
     const shading::ShadingPlan& shading = plan_.shading;
     const shading::MaterialPlan& material = shading.materials[static_cast<std::size_t>(list.material)];
+    constexpr int kManyLights = 64;
+    if (lights.count > kManyLights) pass_.view.stop.check();  // a tile of a thousand soft lights takes a second
     count_lights(counts_.work, material, lights, list.count);
     count_shading(counts_.work, material, list.count);
     if (pass_.reference != nullptr)

@@ -246,7 +246,7 @@ FileBegin::FileBegin(std::span<const std::byte> whole) : bytes(whole), is_text(b
     for (std::string_view line; lines.size() < kMostLines && all.next(line);) {
         const std::string_view words = Words(line).rest();
         const auto at = static_cast<std::size_t>(line.data() - text.data());
-        if (words.empty() || words[0] == '#') continue;
+        if (words.empty() || words[0] == '#' || words.starts_with("//")) continue;
         if (lines.empty()) first = at;
         if (at > first + kMostBytes) break;
         lines.push_back(words.substr(0, kMostBytes));

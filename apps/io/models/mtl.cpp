@@ -2,6 +2,7 @@
 
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/text_scanner.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
 
 #include <fmt/ranges.h>
 
@@ -61,7 +62,10 @@ MtlTexture read_texture(TextScanner& words) {
             if (option == "-clamp") texture.clamp = same_word(value, "on");
         }
     }
-    texture.file = unquoted(words.rest_of_line(true));
+    std::string_view name = words.rest_of_line(true);
+    const std::string_view before = name.substr(0, name.find(" #"));
+    if (is_picture_name(Words(before).rest())) name = Words(before).rest();  // a comment behind it
+    texture.file = unquoted(name);
     // Pictures of several tiles, as Mari and Mudbox number them: the first is the square from 0 to 1.
     for (const auto& [mark, first] : {std::pair("<UDIM>", "1001"), {"<udim>", "1001"}, {"<UVTILE>", "u1_v1"}, {"<uvtile>", "u1_v1"}})
         if (const std::size_t at = texture.file.find(mark); at != std::string::npos) {

@@ -79,6 +79,9 @@ private:
             case 's':
                 if (same_word(word, "solid")) return read_name(Keyword::solid);
                 break;
+            case 'n':
+                if (same_word(word, "normal") && last_ == Keyword::facet && !builder_.options().strict) return;
+                break;
             case 'c':
                 if (same_word(word, "color")) return read_color(word);
                 break;
@@ -107,14 +110,15 @@ private:
         const std::string_view what = scanner_.word_in_line();
         if (same_word(what, "solid")) read_name(Keyword::endsolid);
     }
-    /// A name up to the end of the line, in which the first facet may stand.
+    /// A name up to the end of the line, in which the first facet may stand: with a normal and a corner, which no name has.
     void read_name(Keyword keyword) {
         begin_part(keyword == Keyword::solid ? "solid" : "endsolid", keyword);
         end_facet();
         color_ = kNone;
         if (builder_.options().strict) return scanner_.skip_line();
+        constexpr std::size_t kLeastOfFacet = 9;
         for (std::string_view word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line())
-            if (same_word(word, "facet") && scanner_.words_in_line(1) > 0) return read_facet();
+            if (same_word(word, "facet") && scanner_.words_in_line(kLeastOfFacet) == kLeastOfFacet) return read_facet();
     }
     void read_facet() {
         begin_part("facet", Keyword::facet);

@@ -216,7 +216,8 @@ void settle(Document& document, std::span<const int> drawn_nodes, std::span<cons
     const std::vector<std::string> paths = json_paths_at(document.text, offsets, limits);
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const bool counts = notes[i].owner.target == Target::none || drawn(notes[i].owner);
-        document.warn(fmt::format("{}: {}, {}", printable(paths[i], 120), notes[i].what, counts ? notes[i].instead : kNothingUsesIt));
+        document.warn(fmt::format("{}: {}, {}", paths[i].empty() ? "the text" : printable(paths[i], 120), notes[i].what,
+                                  counts ? notes[i].instead : kNothingUsesIt));
     }
     document.notes = {};
 }

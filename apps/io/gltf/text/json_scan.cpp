@@ -71,7 +71,7 @@ private:
         const bool line = text_.substr(at_, 2) == "//";
         const std::size_t end = text_.find(line ? "\n" : "*/", std::min(at_ + 2, text_.size()));
         if (!line && (text_.substr(at_, 2) != "/*" || end == text_.npos)) return false;
-        loose(at_, "a comment, which JSON has not");
+        loose(at_, "a comment");
         at_ = line ? std::min(end, text_.size()) : end + 2;
         check_();
         return true;

@@ -59,7 +59,7 @@ struct LoadLimits {
     /// objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
     /// Work that loading takes beside reading, and that each frame of the scene takes beside its pixels' (Scene::frame_work), in
-    /// nanoseconds of one core by estimate. 0: by size, 2.5e9 and 1,000 for each byte of the file and those it
+    /// nanoseconds of one core by estimate. 0: by size, 1.7e9 and 1,000 for each byte of the file and those it
     /// names, so that no small file takes long.
     std::uint64_t max_work = 0;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
