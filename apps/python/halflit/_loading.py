@@ -4,7 +4,6 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
-import zlib
 from typing import TYPE_CHECKING, Any, BinaryIO, Dict, Tuple, Union
 
 from . import _c
@@ -60,6 +59,7 @@ def loading(source: Any, base_dir: Any, options: Dict[str, Any]) -> Tuple[str, T
 
 def sum_of(source: Union[str, bytes]) -> int:
     """A check sum of the bytes, or of the file that is named so."""
+    import zlib  # importing halflit loads little
     if isinstance(source, bytes):
         return zlib.crc32(source)
     found = 0
