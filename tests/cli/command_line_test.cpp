@@ -73,7 +73,9 @@ TEST_CASE("command line: what people type is answered with what to type", "[cli]
     const Row rows[] = {
         {{"https://example.invalid/duck.glb"}, 2, "curl -L 'https://example.invalid/duck.glb' | halflit -"},
         {{"empty"}, 2, "empty: is a folder without models"},
-        {{"."}, 2, ".: names 1 models: expected -o FOLDER/"},
+        {{"."}, 2, ".: stands for one model: expected -o FOLDER/"},
+        {{".", "-o", "one.png"}, 2, "one.png is one picture: expected -o FOLDER/"},
+        {{"file:///a/b.glb"}, 2, "expected the file's path: /a/b.glb"},
         {{"triangle.gltf", "a.png", "b.png"}, 2, "two pictures are named, a.png and b.png"},
         {{"triangle.gltf", "-o", "a.png", "-o", "b.png"}, 2, "--output: expected once, found 2 times"},
         {{"triangle.gltf", "--size"}, 2, "--size: expected WxH after it, found nothing"},

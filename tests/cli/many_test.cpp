@@ -54,7 +54,7 @@ TEST_CASE("many: each scene has the picture that it has alone, and reports come 
     INFO(outcome.err);
     CHECK(outcome.code == 3);
     CHECK(outcome.err.starts_with("halflit: error: m17.gltf: "));
-    CHECK(outcome.err.ends_with("\nhalflit: wrote 39 pictures, new/m0-000.png to new/m39-039.png\n"));
+    CHECK(outcome.err.ends_with("\nhalflit: wrote 39 pictures, new/m0-000.png to new/m39-039.png; 1 could not be drawn, see above\n"));
     const auto lines = json_lines(contents(folder.file("lines.json")));
     REQUIRE(lines.size() == 40);
     for (std::size_t i = 0; i < 40; ++i) {

@@ -49,9 +49,13 @@ Result<void> expand(RenderLine& line) {
     if (!scenes) return tl::unexpected(scenes.error());
     if (*scenes == line.words) return {};
     std::string& output = line.output;
-    if (output.empty())
-        return fail(ErrorCode::usage,
-                    fmt::format("{}: names {} models: expected -o FOLDER/ for their pictures", line.words[0], scenes->size()));
+    const auto folder =
+        std::find_if(line.words.begin(), line.words.end(), [](const std::string& word) { return !models_named(word).empty(); });
+    const std::string names = *folder + ": stands for " + (scenes->size() == 1 ? "one model" : std::to_string(scenes->size()) + " models");
+    if (line.film.wanted()) return fail(ErrorCode::usage, names + ", and a film has one: draw them one after the other");
+    if (output.empty()) return fail(ErrorCode::usage, names + ": expected -o FOLDER/ for their pictures");
+    if (is_picture_name(output) && !is_folder(output) && !line.format)
+        return fail(ErrorCode::usage, names + ", and " + output + " is one picture: expected -o FOLDER/");
     if (!output.ends_with('/') && !is_pattern(output) && !is_picture_name(output)) output += '/';
     line.words = *std::move(scenes);
     return {};

@@ -109,7 +109,9 @@ public:
         if (report_ != nullptr && std::fclose(report_.release()) != 0 && !report_error_) report_error_ = errno;
         if (report_error_) return fail(ErrorCode::io, options_.each.report + ": " + platform::errno_text(*report_error_));
         progress_.clear();
-        if (is_long() && written_ > 0) print_note(fmt::format("wrote {} pictures, {} to {}", written_, first_, last_));
+        if (is_long() && written_ > 0)
+            print_note(fmt::format("wrote {} pictures, {} to {}{}", written_, first_, last_,
+                                   failed_ > 0 ? fmt::format("; {} could not be drawn, see above", failed_) : ""));
         if (skipped_ > 0 && others_ == 0) print_note(fmt::format("nothing to do: all {} pictures are there", skipped_));
         return code_ != 0 ? code_ : any_blank_ ? 1 : 0;
     }
@@ -277,6 +279,7 @@ private:
             if (code_ == 0) code_ = outcome.code;
             any_blank_ |= outcome.blank;
             ++(outcome.skipped ? skipped_ : others_);
+            failed_ += outcome.code != 0 ? 1 : 0;
             if (outcome.code == 0 && !outcome.skipped) {
                 if (written_++ == 0) first_ = pictures_[told_].output;
                 last_ = pictures_[told_].output;
@@ -303,7 +306,7 @@ private:
     std::optional<int> report_error_;
     int code_ = 0;
     bool any_blank_ = false;
-    std::size_t skipped_ = 0, others_ = 0, written_ = 0;
+    std::size_t skipped_ = 0, others_ = 0, written_ = 0, failed_ = 0;
     std::string first_, last_;  ///< of the pictures that were written
     ProgressLine progress_{false};
 };

@@ -211,7 +211,8 @@ void drop_dash_of_json(std::span<const Command> commands, std::vector<std::strin
 /// --verbose beside --version, which is not of a command. It is left out of the line.
 bool root_is_verbose(std::vector<std::string>& arguments) {
     const auto is_version = [](const std::string& word) { return word == "--version" || word == "-V"; };
-    return std::any_of(arguments.begin(), arguments.end(), is_version) && std::erase(arguments, "--verbose") > 0;
+    return std::any_of(arguments.begin(), arguments.end(), is_version) &&
+           std::erase_if(arguments, [](const std::string& word) { return word == "--verbose" || word == "-v"; }) > 0;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/render/built_in_scenes.hpp"
+#include "apps/io/files/text.hpp"
 #include "halflit/model.hpp"
 #include "halflit/up_axis.hpp"
 
@@ -17,7 +18,11 @@ Result<LoadedScene> load_file(const RenderOptions& options) {
     return load_model_bytes(*bytes, kStandardInputName, "", load);
 }
 
-bool is_address(std::string_view name) { return name.starts_with("http://") || name.starts_with("https://"); }
+bool is_address(const std::string& name) {
+    const std::string scheme = name.substr(0, name.find("://"));
+    return scheme.size() < name.size() &&
+           (io::same_word(scheme, "http") || io::same_word(scheme, "https") || io::same_word(scheme, "file"));
+}
 
 }  // namespace
 
@@ -47,7 +52,11 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                            .parts = std::move(parts)};
     }
     if (is_address(name))
-        return fail(ErrorCode::usage, name + ": is an address, and no network is used; curl -L '" + name + "' | halflit - -o picture.png");
+        return fail(
+            ErrorCode::usage,
+            io::same_word(name.substr(0, 5), "file:")
+                ? name + ": is an address; expected the file's path: " + name.substr(name.find('/', 7) == name.npos ? 7 : name.find('/', 7))
+                : name + ": is an address, and no network is used; curl -L '" + name + "' | halflit - -o picture.png");
     auto loaded = load_file(options);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
         return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
