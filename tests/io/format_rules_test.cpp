@@ -358,9 +358,9 @@ TEST_CASE("3MF: components, transforms, units and colours are read", "[io]") {
     CHECK(loaded.info.unit_m == 0.0254);
     const Bounds bounds = scene_bounds(loaded.scene);
     // 2 (p + (10, 20, 30)) inches of z-up points in [0, 3] x [-1.5, 0] x [0, 4], turned
-    CHECK(std::abs(bounds.max.x - 26 * 0.0254f) < 1e-5f);
-    CHECK(std::abs(bounds.max.y - 68 * 0.0254f) < 1e-5f);
-    CHECK(std::abs(bounds.min.z - -40 * 0.0254f) < 1e-5f);
+    CHECK(std::abs(bounds.max.x - 26) < 1e-5f);
+    CHECK(std::abs(bounds.max.y - 68) < 1e-5f);
+    CHECK(std::abs(bounds.min.z - -40) < 1e-5f);
     REQUIRE(loaded.scene.meshes.size() == 2);  // opaque, and the triangle that is not
     const auto has = [](const Mesh& mesh, Vec4f color) {
         return std::find(mesh.colors.begin(), mesh.colors.end(), color) != mesh.colors.end();

@@ -90,7 +90,7 @@ TEST_CASE("models: one object in each format gives the picture of its glTF", "[i
             return three_mf(three_mf_text(unit, "<object id=\"1\">" + three_mf_mesh(object, scale) + "</object>", items));
         };
         files.emplace_back("3MF", of_unit("meter", 1.0f));
-        files.emplace_back("3MF in millimetres", of_unit("millimeter", 1000.0f));
+        files.emplace_back("3MF in millimetres", of_unit("millimeter", 1.0f));
     }
     for (const auto& [name, file] : files) {
         INFO(name);

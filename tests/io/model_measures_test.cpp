@@ -16,9 +16,8 @@ TEST_CASE("model: the same solid has the same measures in each format", "[io][me
                                {"STL text", stl_text_of(solid)},
                                {"PLY", ply_of(solid, PlyKind::little)},
                                {"OBJ", obj_of(solid)}};
-    // A thousand times as large in millimetres is the same in metres.
     if (has_three_mf())
-        cases.push_back({"3MF", three_mf(three_mf_text("millimeter", "<object id=\"1\">" + three_mf_mesh(solid, 1000) + "</object>",
+        cases.push_back({"3MF", three_mf(three_mf_text("millimeter", "<object id=\"1\">" + three_mf_mesh(solid) + "</object>",
                                                        "<item objectid=\"1\"/>"))});
     for (const Case& one : cases) {
         INFO(one.name);
@@ -29,7 +28,7 @@ TEST_CASE("model: the same solid has the same measures in each format", "[io][me
         CHECK(m->bodies == 1);
         CHECK(m->degenerate_triangles == 0);
         CHECK(m->triangles == solid.triangles.size());
-        // The letter's area 3 x 1 + 1 x 3, its outline 14, and its height 1.5. 3MF's unit, 0.001, is rounded to float32.
+        // The letter's area 3 x 1 + 1 x 3, its outline 14, and its height 1.5.
         CHECK(m->volume == Approx(6 * 1.5).epsilon(1e-6));
         CHECK(m->area == Approx(2 * 6 + 14 * 1.5).epsilon(1e-6));
         const Vec3d size = m->size();

@@ -153,7 +153,7 @@ TEST_CASE("slicers: one plate is drawn, by the project or by its place", "[io][3
         const LoadedScene loaded = load_any_ok(file, options);
         std::set<int> places;
         for (const Instance& instance : loaded.scene.instances)
-            places.insert(static_cast<int>(std::lround(instance.world_from_object.c[3].x * 1000)));
+            places.insert(static_cast<int>(std::lround(instance.world_from_object.c[3].x)));
         return places;
     };
     const Bytes by_project = project(objects, items, {{"Metadata/model_settings.config", settings}}), by_place = project(objects, items);

@@ -5,6 +5,7 @@ import subprocess
 import tempfile
 import unittest
 import warnings
+import zipfile
 
 import numpy as np
 
@@ -205,6 +206,24 @@ class Worlds(unittest.TestCase):
         expected = scene.render((80, 60), view="iso", samples=1, background="transparent", contact_shadow=0)
         self.assertEqual(expected.pixel_hash, said["pixel_hash"])
         self.assertTrue(np.array_equal(np.asarray(picture)[..., 3], np.asarray(expected)[..., 3]))
+
+    def test_coordinates_of_3mf_are_in_its_unit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [os.path.join(folder, name) for name in ("a.3mf", "b.3mf")]
+            for path, unit, size in zip(paths, ("millimeter", "inch"), (1, 1 / 25.4)):
+                points = "".join('<vertex x="%.9g" y="%.9g" z="%.9g"/>' % tuple(p * size + 0) for p in CORNERS)
+                faces = "".join('<triangle v1="%d" v2="%d" v3="%d"/>' % tuple(f) for f in FACES)
+                mesh = f"<mesh><vertices>{points}</vertices><triangles>{faces}</triangles></mesh>"
+                with zipfile.ZipFile(path, "w") as file:
+                    file.writestr("[Content_Types].xml", "<Types/>")
+                    file.writestr("3D/3dmodel.model", f'<model unit="{unit}" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">'
+                                  f'<resources><object id="1">{mesh}</object></resources><build><item objectid="1"/></build></model>')  # fmt: skip
+            info = program_json("info", paths[0], "--json")
+            self.assertEqual((info["bounds"]["min"], info["bounds"]["max"]), ([-1, -1, -1], [1, 1, 1]))
+            self.assertEqual((info["measures"]["unit"], info["measures"]["max"]), ("mm", [1, 1, 1]))
+            self.assertEqual(halflit.Scene.load(paths[0]).bounds.tolist(), [[-1, -1, -1], [1, 1, 1]])
+            found = program_json("compare", *paths, "--json", "-")
+            self.assertEqual((found["unit"], found["differs"]), ("mm", False))
 
     def test_flags_are_in_the_files_coordinates(self):
         folder = tempfile.TemporaryDirectory()

@@ -75,14 +75,11 @@ Result<Comparison> compare_files(const CompareOptions& options) {
     if (!pair) return tl::unexpected(pair.error());
     Comparison out;
     out.a = options.a, out.b = options.b;
-    const auto unit_of = [](const SceneSource& source) {
-        return source.file && source.file->unit_m > 0 ? "m" : "";
-    };  // as Placement has it
-    out.unit = unit_of(pair->a.source);
+    out.unit = file_unit(pair->a.source).name;
     out.max_codes = options.max_codes;
     out.scale = pair->scale();
     out.warnings = pair->warnings;
-    if (unit_of(pair->b.source) != out.unit) {
+    if (file_unit(pair->b.source).name != out.unit) {
         out.warnings.push_back("only one of the files has a unit of length; both are compared by their numbers");
         out.unit.clear();
     }

@@ -12,7 +12,7 @@ namespace halflit::cli {
 
 struct Comparison {
     std::string a, b;  ///< names of the files
-    std::string unit;  ///< of length, "m"; empty: the files have none
+    std::string unit;  ///< of length, that of the first file; empty: the files have none
     int max_codes = 0;
     double scale = 1;  ///< units of the drawn world in one of the file's
     std::vector<ViewChange> views;

@@ -11,11 +11,16 @@
 namespace halflit::cli {
 namespace {
 
-/// Brings a job's scene into another drawn world.
-Result<void> move_into(const Placement& world, RenderJob& job) {
-    const Placement own = job.source.placement;
-    const double factor = world.scale / own.scale;
-    const Vec3d shift = (own.origin - world.origin) * world.scale;
+/// Brings a job's scene into another one's drawn world, and unit of length if both files have one.
+Result<void> move_into(const SceneSource& other, RenderJob& job) {
+    const Placement own = job.source.placement, &world = other.placement;
+    double units = 1.0;  // of the other file in one of its own
+    if (other.file && job.source.file && other.file->unit_m > 0 && job.source.file->unit_m > 0) {
+        units = job.source.file->unit_m / other.file->unit_m;
+        job.source.file->unit_m = other.file->unit_m;
+    }
+    const double factor = units * world.scale / own.scale;
+    const Vec3d shift = (own.origin * units - world.origin) * world.scale;
     if (factor == 1.0 && shift == Vec3d{}) return {};
     const auto moved = [&](Vec4f& column, Vec3d by) {
         const Vec3f v = to_float(Vec3d{column.x, column.y, column.z} * factor + by);
@@ -94,7 +99,7 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
     ModelPair pair{std::move(*a), std::move(*b), {}, {}, {}, {}};
     for (const auto& [name, job] : {std::pair<const char*, const RenderJob*>{"A", &pair.a}, {"B", &pair.b}})
         for (const std::string& warning : job->warnings) pair.warnings.push_back(fmt::format("{}: {}", name, warning));
-    if (const auto moved = move_into(pair.a.source.placement, pair.b); !moved) return tl::unexpected(moved.error());
+    if (const auto moved = move_into(pair.a.source, pair.b); !moved) return tl::unexpected(moved.error());
     warn_of_units(pair);
     pair.bounds = pair.a.prepared->bounds();
     pair.bounds.include(pair.b.prepared->bounds());

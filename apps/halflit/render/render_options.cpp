@@ -159,7 +159,7 @@ FlagGroup camera_flags(RenderOptions& o) {
          {"--up", form_of(kUpAxisNames),
           fmt::format(
               "Axis of the model that points up (default {}, and z for STL and 3MF): views, the ground and the light from above go by "
-              "it. All coordinates are the file's, in metres for 3MF",
+              "it. All coordinates are the file's",
               name_of(UpAxis::y, kUpAxisNames)),
           [&o](const std::string& text) {
               UpAxis up{};

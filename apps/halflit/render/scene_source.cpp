@@ -28,10 +28,10 @@ bool is_address(const std::string& name) {
 
 ShownUnit file_unit(const SceneSource& source) {
     constexpr std::pair<double, const char*> kUnits[] = {{1e-6, "um"}, {1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "in"}, {0.3048, "ft"}};
-    const double metres = source.file ? source.file->unit_m : 0.0, per_drawn_unit = 1.0 / source.placement.scale;
+    const double metres = source.file ? source.file->unit_m : 0.0;
     for (const auto& [size, name] : kUnits)
-        if (metres == size) return {name, per_drawn_unit / size};
-    return {metres > 0 ? "m" : "", per_drawn_unit};
+        if (metres == size) return {name, 1.0 / source.placement.scale};
+    return {metres > 0 ? "m" : "", 1.0 / source.placement.scale};
 }
 
 Result<SceneSource> load_scene(const RenderOptions& options) {

@@ -48,9 +48,8 @@ Json in_file_units(const SceneSource& source, const Measures& found) {
     if (found.triangles == found.not_finite_triangles) return nullptr;
     const Placement& placement = source.placement;
     const auto [name, unit] = file_unit(source);
-    const double by_place = unit * placement.scale;  // in units of the placement
     // Quarter turns may exchange the ends of an axis.
-    const Vec3d a = placement.out(found.min) * by_place, b = placement.out(found.max) * by_place;
+    const Vec3d a = placement.out(found.min), b = placement.out(found.max);
     const Vec3d min{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
     const Vec3d max{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
     const Vec3d size = max - min;
@@ -61,7 +60,7 @@ Json in_file_units(const SceneSource& source, const Measures& found) {
                 {"size", point_json(size, largest)},
                 {"area", rounded(found.area * (unit * unit))},
                 {"volume", found.watertight ? rounded(found.volume * ((unit * unit) * unit)) : Json(nullptr)},
-                {"center", point_json(placement.out(found.center) * by_place, largest)},
+                {"center", point_json(placement.out(found.center), largest)},
                 {"triangles", found.triangles},
                 {"degenerate_triangles", found.degenerate_triangles},
                 {"not_finite_triangles", found.not_finite_triangles},

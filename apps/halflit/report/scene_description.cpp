@@ -91,7 +91,7 @@ Json counts_json(const Scene& scene, const Lighting& light) {
             {"points_drawn", points}};
 }
 
-/// Coordinates and lengths are the file's, in metres for 3MF; so is the colour of a light at distance 1.
+/// Coordinates and lengths are the file's; so is the colour of a light at distance 1.
 Json lights_json(const Lighting& drawn, const Placement& placement) {
     Json lights = Json::array();
     for (Light light : drawn.all_lights()) {

@@ -279,13 +279,9 @@ void ModelBuilder::add_camera(Camera camera, const Affine& root_from_camera) {
 
 LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
     images_->start();
-    const double s = frame.unit_m > 0 ? frame.unit_m : 1.0;
-    Affine& root = local_.front();
-    root = {{{s, 0, 0}, {0, s, 0}, {0, 0, s}, {0, 0, 0}}};
-    loaded_.nodes.front().parent_from_node = to_node_transform(root);
     NodeTree tree;
     for (std::size_t n = 0; n < loaded_.nodes.size(); ++n) {
-        const Affine world = n == 0 ? root : root * local_[n];
+        const Affine& world = local_[n];
         const Node& node = loaded_.nodes[n];
         for (std::size_t k = 0; k < node.instances.size(); ++k)
             loaded_.scene.instances[static_cast<std::size_t>(node.instances[k])].world_from_object =
@@ -299,7 +295,7 @@ LoadedScene ModelBuilder::finish(const ModelFrame& frame) {
         if (loaded_.nodes[n].camera < 0) continue;
         Camera& camera = loaded_.scene.cameras[static_cast<std::size_t>(loaded_.nodes[n].camera)];
         camera.world_from_camera = rigid_part(tree.world_from_node[n]);
-        const auto scale = static_cast<float>(s * loaded_.placement.scale);
+        const auto scale = static_cast<float>(loaded_.placement.scale);
         for (float* length : {&camera.half_height, &camera.half_width, &camera.near_z, &camera.far_z}) *length *= scale;
     }
     images_->finish(loaded_.scene.materials);

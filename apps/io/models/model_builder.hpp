@@ -18,10 +18,10 @@
 
 namespace halflit::io::detail {
 
-/// Transform of the root node, for formats that say more than glTF or nothing about it.
+/// What formats say more than glTF, or nothing, about a model's frame.
 struct ModelFrame {
     UpAxis up = UpAxis::y;  ///< by custom
-    double unit_m = 0.0;    ///< length of the file's unit in metres, in which the scene is; 0: it has none
+    double unit_m = 0.0;    ///< length of the file's unit in metres; 0: it has none
 };
 
 /// A mesh that was made of a part of a soup.

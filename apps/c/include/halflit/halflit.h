@@ -12,7 +12,7 @@
 // - Numbers: Truth is an int32_t: 0 or not. Strings are UTF-8. Indices begin at 0. A matrix is 16 floats, column after column; points are
 //   columns. Colours are linear light with Rec. 709 primaries, if nothing else is said.
 // - Coordinates: All that is passed in and returned, cameras, lights, instances, boxes and planes, has the coordinates of the scene's file,
-//   or of the caller's arrays, which are right-handed, in the file's unit (3MF: in metres). The axis that points up (HALFLIT_UP) decides
+//   or of the caller's arrays, which are right-handed, in the file's unit. The axis that points up (HALFLIT_UP) decides
 //   what views, and the light from above, call up; it turns nothing.
 // - Threads: Different scenes and renderers may be used by different threads at once. Several renderers may draw one scene at once; a call
 //   that would change it meanwhile fails (usage). A renderer draws one frame at a time. Destroy nothing that is in use.

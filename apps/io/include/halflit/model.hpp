@@ -59,8 +59,8 @@ struct LoadLimits {
     /// objects have the same limit.
     std::uint64_t max_geometry_bytes = std::uint64_t{16} << 30;
     /// Work that loading takes beside reading, and that each frame of the scene takes beside its pixels' (Scene::frame_work), in
-    /// nanoseconds of one core by estimate. 0: by size, 1.7e9 and 1,000 for each byte of the file and those it
-    /// names, so that no small file takes long.
+    /// nanoseconds of one core by estimate. 0: by size, 1.7e9 and 1,000 for each byte of the file and of those
+    /// that it names, so that no small file takes long.
     std::uint64_t max_work = 0;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
@@ -155,7 +155,7 @@ struct NodeTransform {
 };
 
 /// Where a model lies in the scene. What a host adds, a camera or a light of its own, goes through into(), and what it reads of the scene
-/// through out(). Points are in the model's own coordinates: those of its root nodes, in the file's unit, and in metres for 3MF.
+/// through out(). Points are in the model's own coordinates: those of its root nodes, in the file's unit.
 struct Placement {
     Vec3d origin{0, 0, 0};              ///< that is drawn at the origin, with `up` turned to +y
     double scale = 1.0;                 ///< a power of two
