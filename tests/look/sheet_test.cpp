@@ -85,7 +85,7 @@ TEST_CASE("sheet: each view has the lengths of the box's sides that it shows, in
     };
     for (const Case& one :
          {Case{{37, 21, 12.5}, 0, "37", "21", "12.5"}, Case{{0.37, 0.21, 0.125}, 1, "370 mm", "210 mm", "125 mm"},
-          Case{{3.75, 2.5, 1.25}, 1, "3.75 m", "2.5 m", "1.25 m"}, Case{{1.5, 1.25, 1.125}, 0.001, "1500 mm", "1250 mm", "1125 mm"}}) {
+          Case{{3.75, 2.5, 1.25}, 1, "3.75 m", "2.5 m", "1.25 m"}, Case{{1500, 1250, 1125}, 0.001, "1500 mm", "1250 mm", "1125 mm"}}) {
         Sheet sheet = sheet_of(box_scene(one.size));
         sheet.job.source.file.emplace().unit_m = one.unit_m;
         const auto page = look_sheet(sheet.job, sheet.shots, sheet.contents, Projection::third_angle, "");
