@@ -1,4 +1,7 @@
-"""How a run of unittest ends: one rule for the tests of Python and of releases.   skips.py LOG: the same for tests that ctest skipped."""
+"""How a run of unittest ends: one rule for the tests of Python and of releases.
+
+skips.py LOG LASTTEST: the same for tests that ctest skipped. LOG: what it printed; LASTTEST: its Testing/Temporary/LastTest.log.
+"""
 import os
 import re
 import sys
@@ -24,7 +27,13 @@ def exit_code(result):
     return 77 if len(result.skipped) >= result.testsRun else 0
 
 
+def text_of(path):
+    with open(path, encoding="utf-8", errors="replace") as file:
+        return file.read()
+
+
 if __name__ == "__main__":
-    with open(sys.argv[1], encoding="utf-8") as log:
-        names = re.findall(r"^\s*[0-9]+ - (.*) \(Skipped\)$", log.read(), re.M)
-    sys.exit(1 if not_allowed([("ctest", name) for name in names]) else 0)
+    names = re.findall(r"^\s*[0-9]+ - (.*) \(Skipped\)", text_of(sys.argv[1]), re.M)
+    said = dict(re.findall(r"^[0-9]+/[0-9]+ Test: ([^\n]*)\n(.*?)^<end of output>$", text_of(sys.argv[2]), re.M | re.S))
+    reasons = [(name, " ".join([name] + re.findall("^skipped.*", said.get(name, ""), re.M))) for name in names]
+    sys.exit(1 if not_allowed(reasons) else 0)

@@ -18,7 +18,8 @@ def shown(value: Any) -> str:
 def whole(value: Any, name: str, low: int, high: int) -> int:
     """A whole number in [low, high]. A float is none, even if it is 2.0, and True is none."""
     try:
-        number = operator.index("" if isinstance(value, bool) else value)
+        number_like: Any = "" if isinstance(value, bool) else value
+        number = operator.index(number_like)
     except TypeError:
         raise UsageError(f"{name}: expected a whole number, found {shown(value)}") from None
     if not low <= number <= high:
