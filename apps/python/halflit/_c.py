@@ -16,7 +16,7 @@ from typing import Any, Dict, List
 
 from ._declarations import CONSTANTS as CONSTANTS
 from ._declarations import FUNCTIONS, STRUCTS
-from ._errors import UsageError, made
+from ._errors import CancelledError, UsageError, made
 from ._values import real, shown, whole
 
 VERSION = "0.1.0"  #: of the package, and of the library that it needs
@@ -208,6 +208,12 @@ def stops_at_interrupt() -> bool:
     return bool(_is_for_main()) and signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
+def _let_handlers_run(code: int) -> None:
+    """After Ctrl-C, Python's handler raises KeyboardInterrupt. Python 3.13 does not run it by itself where a thread forked the process."""
+    if code == CancelledError.code and stops_at_interrupt() and hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.get_ident(), 0)  # no signal; it runs the handlers of those that are there
+
+
 def call(name: str, *arguments: Any) -> None:
     """Calls a function that returns a code, and raises what it tells."""
     called = function(name)
@@ -222,6 +228,7 @@ def call(name: str, *arguments: Any) -> None:
     else:
         code = called(*given)
     if code:
+        _let_handlers_run(code)
         path = arguments[_PATHS[name]] if name in _PATHS else None
         raise made(code, _told(function("last_error")().decode("utf-8", "replace")), path)
 

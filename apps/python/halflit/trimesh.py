@@ -113,7 +113,7 @@ def _add_lights(made: Scene, scene: Any) -> None:
     for light in given:
         matrix = np.asarray(scene.graph[light.name][0], np.float64)
         color = np.asarray(light.color)
-        shares = (color / 255.0 if color.dtype.kind in "iu" else color)[:3]
-        way = -matrix[:3, 2] if "Directional" in type(light).__name__ else centre - matrix[:3, 3]
+        shares: Any = (color / 255.0 if color.dtype.kind in "iu" else color)[:3]
+        way: Any = -matrix[:3, 2] if "Directional" in type(light).__name__ else centre - matrix[:3, 3]
         if np.linalg.norm(way) > 0:
             made.add_light("directional", color=shares.tolist(), direction=way.tolist())
