@@ -26,7 +26,7 @@ Result<const Command*> command_named(const std::vector<Command>& commands, const
     std::vector<std::string> names;
     for (const Command& command : commands) {
         if (command.name == name) return &command;
-        if (!command.hidden && !command.lacking) names.push_back(command.name);
+        if (command.is_offered()) names.push_back(command.name);
     }
     return fail(ErrorCode::usage, "COMMAND: expected one of " + joined(names, ", ") + ", found '" + name + "'" + did_you_mean(name, names));
 }

@@ -49,9 +49,9 @@ Result<void> expand(RenderLine& line) {
     if (!scenes) return tl::unexpected(scenes.error());
     if (*scenes == line.words) return {};
     std::string& output = line.output;
-    const auto folder =
-        std::find_if(line.words.begin(), line.words.end(), [](const std::string& word) { return !models_named(word).empty(); });
-    const std::string names = *folder + ": stands for " + (scenes->size() == 1 ? "one model" : std::to_string(scenes->size()) + " models");
+    // The words before the first folder or pattern stand for themselves.
+    const std::string& named = *std::mismatch(line.words.begin(), line.words.end(), scenes->begin(), scenes->end()).first;
+    const std::string names = named + ": stands for " + (scenes->size() == 1 ? "one model" : std::to_string(scenes->size()) + " models");
     if (line.film.wanted()) return fail(ErrorCode::usage, names + ", and a film has one: draw them one after the other");
     if (output.empty()) return fail(ErrorCode::usage, names + ": expected -o FOLDER/ for their pictures");
     if (is_picture_name(output) && !is_folder(output) && !line.format)

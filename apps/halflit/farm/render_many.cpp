@@ -112,7 +112,7 @@ public:
         if (is_long() && written_ > 0)
             print_note(fmt::format("wrote {} pictures, {} to {}{}", written_, first_, last_,
                                    failed_ > 0 ? fmt::format("; {} could not be drawn, see above", failed_) : ""));
-        if (skipped_ > 0 && others_ == 0) print_note(fmt::format("nothing to do: all {} pictures are there", skipped_));
+        if (skipped_ > 0 && written_ + failed_ == 0) print_note(fmt::format("nothing to do: all {} pictures are there", skipped_));
         return code_ != 0 ? code_ : any_blank_ ? 1 : 0;
     }
 
@@ -278,10 +278,9 @@ private:
                 report_error_ = errno;
             if (code_ == 0) code_ = outcome.code;
             any_blank_ |= outcome.blank;
-            ++(outcome.skipped ? skipped_ : others_);
-            failed_ += outcome.code != 0 ? 1 : 0;
+            ++(outcome.skipped ? skipped_ : outcome.code != 0 ? failed_ : written_);
             if (outcome.code == 0 && !outcome.skipped) {
-                if (written_++ == 0) first_ = pictures_[told_].output;
+                if (written_ == 1) first_ = pictures_[told_].output;
                 last_ = pictures_[told_].output;
             }
             outcome = {};
@@ -306,7 +305,7 @@ private:
     std::optional<int> report_error_;
     int code_ = 0;
     bool any_blank_ = false;
-    std::size_t skipped_ = 0, others_ = 0, written_ = 0, failed_ = 0;
+    std::size_t skipped_ = 0, written_ = 0, failed_ = 0;
     std::string first_, last_;  ///< of the pictures that were written
     ProgressLine progress_{false};
 };

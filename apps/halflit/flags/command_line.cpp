@@ -99,7 +99,7 @@ std::string meant_by(const std::string& word, const std::vector<std::string>& ca
 std::vector<std::string> command_names(std::span<const Command> commands) {
     std::vector<std::string> names;
     for (const Command& command : commands)
-        if (!command.hidden && !command.lacking) names.push_back(command.name);
+        if (command.is_offered()) names.push_back(command.name);
     return names;
 }
 

@@ -49,6 +49,8 @@ struct Command {
     std::function<Result<int>()> run;  ///< the exit code: 0, or 1 for a negative result
     bool hidden = false;               ///< left out of the list of commands
     bool lacking = false;              ///< this build cannot run it: left out of what the program offers, but not of its reference
+
+    [[nodiscard]] bool is_offered() const { return !hidden && !lacking; }
 };
 
 /// Stores a parsed value in `target`, or returns its error; for use in a ReadValue.

@@ -61,7 +61,7 @@ std::string program_help(std::span<const Command> commands, std::size_t width) {
     std::string text =
         std::string(kProgramHelp) + "\n\nUsage: halflit SCENE [PICTURE] [FLAGS]\n       halflit COMMAND [FLAGS]\n\nCommands:\n";
     for (const Command& command : commands)
-        if (!command.hidden && !command.lacking)
+        if (command.is_offered())
             text += "  " + command.name + std::string(12 - command.name.size(), ' ') + folded(command.help, 14, 14, width);
     text += "\nFlags:\n" + row("-h, --help", "Print this help", width) +
             row("-V, --version", "Print the version, with --verbose also those of the libraries in the program", width) +

@@ -21,11 +21,6 @@ using platform::FileKind, platform::FileStatus;
 /// "models/" for "models/duck.glb"; empty for a name without a folder.
 std::string folder_prefix(const std::string& path) { return path.substr(0, platform::last_separator(path) + 1); }  // npos + 1 is 0
 
-bool ends_with_any_case(std::string_view text, std::string_view end) {
-    return text.size() >= end.size() && std::equal(end.begin(), end.end(), text.end() - static_cast<std::ptrdiff_t>(end.size()),
-                                                   [](char a, char b) { return io::lower(a) == io::lower(b); });
-}
-
 /// Place of the next character in UTF-8.
 std::size_t next_character(std::string_view text, std::size_t at) {
     do ++at;
@@ -69,7 +64,7 @@ bool same_file(const std::string& a, const std::string& b) {
 
 bool is_model_name(std::string_view path) {
     const auto rows = io::detail::formats();
-    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return ends_with_any_case(path, row.extension); });
+    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return io::ends_with_word(path, row.extension); });
 }
 
 bool fits_pattern(std::string_view pattern, std::string_view text, bool fold) {

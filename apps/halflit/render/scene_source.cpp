@@ -24,6 +24,15 @@ bool is_address(const std::string& name) {
            (io::same_word(scheme, "http") || io::same_word(scheme, "https") || io::same_word(scheme, "file"));
 }
 
+/// What to type in place of an address.
+std::string instead_of(const std::string& address) {
+    constexpr std::size_t kHost = 7;  // behind file://
+    if (!io::same_word(address.substr(0, kHost), "file://"))
+        return ", and no network is used; curl -L '" + address + "' | halflit - -o picture.png";
+    const std::size_t slash = address.find('/', kHost);
+    return "; expected the file's path: " + address.substr(slash == address.npos ? kHost : slash);
+}
+
 }  // namespace
 
 ShownUnit file_unit(const SceneSource& source) {
@@ -51,12 +60,7 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                            .placement = {.up = up},
                            .parts = std::move(parts)};
     }
-    if (is_address(name))
-        return fail(
-            ErrorCode::usage,
-            io::same_word(name.substr(0, 5), "file:")
-                ? name + ": is an address; expected the file's path: " + name.substr(name.find('/', 7) == name.npos ? 7 : name.find('/', 7))
-                : name + ": is an address, and no network is used; curl -L '" + name + "' | halflit - -o picture.png");
+    if (is_address(name)) return fail(ErrorCode::usage, name + ": is an address" + instead_of(name));
     auto loaded = load_file(options);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
         return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));

@@ -18,6 +18,11 @@ namespace halflit::io {
     return true;
 }
 
+/// True if the text ends so, but for the case of ASCII letters; `small` has small letters.
+[[nodiscard]] constexpr bool ends_with_word(std::string_view text, std::string_view small) {
+    return text.size() >= small.size() && same_word(text.substr(text.size() - small.size()), small);
+}
+
 /// Control characters, DEL, the C1 controls and bytes that are not UTF-8 become \xNN; at most `max_bytes` of the source are shown.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max_bytes = 200);
 

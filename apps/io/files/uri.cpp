@@ -95,7 +95,7 @@ Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, std::size_t
     if (comma == std::string_view::npos) return fail(ErrorCode::bad_input, "data URI: expected a comma after the media type");
     const std::string_view header = uri.substr(5, comma - 5), body = uri.substr(comma + 1);
     constexpr std::string_view kBase64Mark = ";base64";
-    if (header.size() >= kBase64Mark.size() && same_word(header.substr(header.size() - kBase64Mark.size()), kBase64Mark)) {
+    if (ends_with_word(header, kBase64Mark)) {
         auto bytes = decode_base64(body, max_bytes);
         if (!bytes && mended != nullptr)
             if (const std::string clean = packed(body); clean != body) {

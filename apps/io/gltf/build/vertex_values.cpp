@@ -126,7 +126,7 @@ void mend_values(Document& document, const std::string& list, Mesh& mesh) {
     mend(document, list, "TEXCOORD_0", mesh.uv0, &kOrigin, "read as 0");
     mend(document, list, "TEXCOORD_1", mesh.uv1, &kOrigin, "read as 0");
     mend(document, list, "COLOR_0", mesh.colors, &kWhite, "read as white");
-    // Of others mend_directions warns.
+    // mend_directions() warns of directions of length 0.
     const auto not_unit = [strict = document.options.strict](const auto& v) { return (strict || has_direction(v)) && !is_unit(v); };
     warn_of(document, list, "NORMAL", mesh.normals, not_unit, "are not of length 1");
     warn_of(document, list, "TANGENT", mesh.tangents, not_unit, "are not of length 1");

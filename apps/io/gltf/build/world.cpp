@@ -56,12 +56,11 @@ std::vector<Affine> instance_transforms(const NodeTree& tree, const LoadedScene&
     return out;
 }
 
-}  // namespace
-
-std::size_t leave_out_strays(Mesh& mesh) {
+/// box: of the mesh.
+std::size_t leave_out_strays(Mesh& mesh, const DoubleBox& box) {
     constexpr double kTooFar = 0x1p40;
     constexpr std::size_t kShare = 3;  // one in so many vertices at most; a stray is a vertex of each triangle around it
-    if (!(largest(box_of(mesh)) > kLargest)) return 0;
+    if (!(largest(box) > kLargest)) return 0;
     std::vector<double> away;
     for (const Vec3f& p : mesh.positions)
         if (shading::finite(p)) away.push_back(length(to_double(p)));
@@ -74,6 +73,10 @@ std::size_t leave_out_strays(Mesh& mesh) {
         if (shading::finite(p) && length(to_double(p)) > limit) p.x = std::numeric_limits<float>::quiet_NaN();
     return strays;
 }
+
+}  // namespace
+
+std::size_t leave_out_strays(Mesh& mesh) { return leave_out_strays(mesh, box_of(mesh)); }
 
 Affine drawn(const Affine& world, const Placement& placement) {
     const auto turned = [&](Vec3d column) { return turned_upright(column, placement.up) * placement.scale; };
@@ -98,8 +101,10 @@ void choose_origin(Document& document, LoadedScene& loaded, std::span<const Affi
     std::vector<DoubleBox> boxes;
     std::size_t strays = 0;
     for (Mesh& mesh : scene.meshes) {
-        strays += leave_out_strays(mesh);
         boxes.push_back(box_of(mesh));
+        const std::size_t found = leave_out_strays(mesh, boxes.back());
+        if (found > 0) boxes.back() = box_of(mesh);
+        strays += found;
     }
     if (strays > 0)
         document.warn(fmt::format(
