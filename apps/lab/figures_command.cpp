@@ -1,9 +1,10 @@
 // halflit figures: remakes figures of the literature.
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/output_folder.hpp"
+#include "apps/engine/basics/spelling.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/file_names.hpp"
+#include "apps/halflit/flags/message_flags.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/output_folder.hpp"
-#include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/lab/figure.hpp"

@@ -1,6 +1,6 @@
 #include "apps/lab/svg_page.hpp"
 
-#include "apps/halflit/program/base64.hpp"
+#include "apps/engine/basics/base64.hpp"
 #include "apps/lab/rich_text.hpp"
 
 #include <fmt/core.h>

@@ -6,8 +6,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include "apps/halflit/program/base64.hpp"
-#include "apps/halflit/program/xml_text.hpp"
+#include "apps/engine/basics/base64.hpp"
+#include "apps/engine/basics/xml_text.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 namespace halflit::cli {
 

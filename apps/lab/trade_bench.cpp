@@ -1,8 +1,8 @@
 #include "apps/lab/trade_bench.hpp"
 
-#include "apps/halflit/flags/plan_names.hpp"
-#include "apps/halflit/program/median.hpp"
-#include "apps/halflit/program/stopwatch.hpp"
+#include "apps/engine/basics/median.hpp"
+#include "apps/engine/basics/stopwatch.hpp"
+#include "apps/engine/request/plan_names.hpp"
 #include "raster/frame_plan.hpp"
 #include "raster/scene/prepared_data.hpp"
 

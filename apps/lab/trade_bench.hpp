@@ -1,8 +1,9 @@
 // Draws a frame with many settings, and measures time and error of each.
 #pragma once
 
-#include "apps/halflit/render/render_job.hpp"
-#include "apps/lab/trade_error.hpp"
+#include "apps/engine/job/render_job.hpp"
+#include "apps/engine/trade/trade_error.hpp"
+#include "apps/halflit/program/engine.hpp"
 #include "apps/lab/trade_grid.hpp"
 
 #include <functional>

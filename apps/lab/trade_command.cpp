@@ -1,8 +1,8 @@
 // halflit trade: measures time and error of one scene with many settings, and shows the errors.
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/output_folder.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/progress_line.hpp"
 #include "apps/halflit/program/text_file.hpp"
 #include "apps/lab/trade_report.hpp"

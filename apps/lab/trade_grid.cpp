@@ -1,7 +1,7 @@
 #include "apps/lab/trade_grid.hpp"
 
-#include "apps/halflit/flags/plan_names.hpp"
-#include "apps/halflit/flags/values.hpp"
+#include "apps/engine/request/plan_names.hpp"
+#include "apps/engine/request/values.hpp"
 #include "apps/io/files/lobe_name.hpp"
 #include "sh/basis.hpp"
 

@@ -1,5 +1,5 @@
 // Results of `halflit trade` as one HTML page: plots, table, pictures.
-#include "apps/halflit/report/html_page.hpp"
+#include "apps/engine/pictures/html_page.hpp"
 #include "apps/lab/svg_plot.hpp"
 #include "apps/lab/trade_report.hpp"
 #include "halflit/image.hpp"

@@ -1,7 +1,7 @@
 #include "apps/lab/trade_report.hpp"
 
-#include "apps/halflit/flags/plan_names.hpp"
-#include "apps/halflit/report/run_report.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/request/plan_names.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "apps/npm/flag_table.hpp"
 
-#include "apps/halflit/render/render_options.hpp"
-#include "apps/halflit/report/run_report.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/request/render_options.hpp"
 #include "halflit/version.hpp"
 
 #include <nlohmann/json.hpp>
@@ -17,18 +17,18 @@ constexpr std::string_view kOfProcesses[] = {"--threads", "--max-memory", "--all
 }  // namespace
 
 std::string flag_table() {
-    cli::RenderOptions options;
-    std::vector<cli::FlagGroup> groups = cli::render_flags(options, cli::kRenderSize);
-    cli::remove_flags(groups, kOfProcesses);
-    cli::Json flags = cli::Json::array();
-    for (const cli::FlagGroup& group : groups)
-        for (const cli::Flag& flag : group.flags)
-            flags.push_back({{"names", cli::words_of(flag.names, ',')},
+    engine::RenderOptions options;
+    std::vector<engine::FlagGroup> groups = engine::render_flags(options, engine::kRenderSize);
+    engine::remove_flags(groups, kOfProcesses);
+    engine::Json flags = engine::Json::array();
+    for (const engine::FlagGroup& group : groups)
+        for (const engine::Flag& flag : group.flags)
+            flags.push_back({{"names", engine::words_of(flag.names, ',')},
                              {"form", flag.form},
                              {"help", flag.help},
                              {"group", group.title},
                              {"repeated", flag.repeated}});
-    return cli::to_text({{"version", version()}, {"pixel_epoch", kPixelEpoch}, {"flags", std::move(flags)}}, true);
+    return engine::to_text({{"version", version()}, {"pixel_epoch", kPixelEpoch}, {"flags", std::move(flags)}}, true);
 }
 
 }  // namespace halflit::npm

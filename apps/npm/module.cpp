@@ -1,7 +1,7 @@
 // The functions that engine.js of the npm package calls, for the package and for the page.
 #include "apps/npm/module.hpp"
 
-#include "apps/halflit/program/spelling.hpp"
+#include "apps/engine/basics/spelling.hpp"
 #include "apps/web/kernels_apart.hpp"
 #include "halflit/image.hpp"
 
@@ -57,7 +57,7 @@ EMSCRIPTEN_KEEPALIVE void* halflit_add_file(Handle* handle, const char* name, in
 
 /// Names of files that the last attempt asked for and that are not there, one a line.
 EMSCRIPTEN_KEEPALIVE const char* halflit_wanted(Handle* handle) {
-    of_module = cli::joined(handle->files.wanted, "\n");
+    of_module = engine::joined(handle->files.wanted, "\n");
     return of_module.c_str();
 }
 
@@ -106,7 +106,7 @@ EMSCRIPTEN_KEEPALIVE const char* halflit_module_text() { return of_module.c_str(
 
 /// " (did you mean NAME?)" if one of the names, one a line, is spelled like the word; otherwise nothing.
 EMSCRIPTEN_KEEPALIVE const char* halflit_did_you_mean(const char* word, const char* names) {
-    of_module = cli::did_you_mean(word, web::lines_of(names));
+    of_module = engine::did_you_mean(word, web::lines_of(names));
     return of_module.c_str();
 }
 

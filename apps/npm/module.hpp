@@ -2,7 +2,7 @@
 // A scene is a handle. Texts are UTF-8 and end with a zero byte; what is returned lives until the next call for that scene.
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/request/flags.hpp"
 #include "apps/web/dropped_files.hpp"
 #include "apps/web/picture_session.hpp"
 
@@ -44,6 +44,6 @@ int attempt_on(Handle& handle, const Work& work) {
 }
 
 /// Flags of a call: one word a line.
-[[nodiscard]] inline std::vector<std::string> lines_of(const std::string& text) { return cli::words_of(text, '\n'); }
+[[nodiscard]] inline std::vector<std::string> lines_of(const std::string& text) { return engine::words_of(text, '\n'); }
 
 }  // namespace halflit::web

@@ -1,6 +1,6 @@
 // What the npm package's module has beside module.cpp: the program's report and description of a scene, and its flags.
-#include "apps/halflit/report/run_report.hpp"
-#include "apps/halflit/report/scene_description.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/answers/scene_description.hpp"
 #include "apps/npm/flag_table.hpp"
 #include "apps/npm/module.hpp"
 
@@ -15,12 +15,12 @@ extern "C" {
 /// As text: the report of the last picture, as that of `halflit render --report`.
 EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
     return web::attempt(handle->text, [&]() -> Result<void> {
-        const cli::RenderJob* const job = handle->session.job();
+        const engine::RenderJob* const job = handle->session.job();
         if (job == nullptr) return fail(ErrorCode::usage, "there is no picture yet");
-        cli::Json report = cli::report_head("report");
+        engine::Json report = engine::report_head("report");
         report["scene"] = job->source.name;
-        cli::add_frame(report, *job, handle->session.rendered(), handle->session.picture());
-        handle->text = cli::to_text(report, true);
+        engine::add_frame(report, *job, handle->session.rendered(), handle->session.picture());
+        handle->text = engine::to_text(report, true);
         return {};
     });
 }
@@ -28,7 +28,7 @@ EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
 EMSCRIPTEN_KEEPALIVE int halflit_info(Handle* handle, const char* flags, int json, int parts) {
     return web::attempt_on(*handle, [&]() -> Result<void> {
         if (auto applied = handle->session.apply(handle->scene, web::lines_of(flags)); !applied) return applied;
-        return cli::describe_scene(*handle->session.job(), json != 0, parts != 0).map([&](std::string text) {
+        return engine::describe_scene(*handle->session.job(), json != 0, parts != 0).map([&](std::string text) {
             handle->text = std::move(text);
         });
     });

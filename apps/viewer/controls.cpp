@@ -1,6 +1,6 @@
 #include "apps/viewer/controls.hpp"
 
-#include "apps/halflit/flags/setting_flags.hpp"
+#include "apps/engine/request/setting_flags.hpp"
 #include "halflit/scene.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
@@ -41,7 +41,7 @@ std::vector<LightControl> light_controls(const std::vector<Light>& lights) {
     return controls;
 }
 
-Controls controls_of(const cli::RenderJob& job, const cli::RenderOptions& options) {
+Controls controls_of(const engine::RenderJob& job, const engine::RenderOptions& options) {
     const Settings& settings = job.settings;
     Controls controls;
     controls.own_lobes = !settings.shading.lobe;
@@ -113,7 +113,7 @@ std::vector<Light> lights_of(const Controls& controls, const std::vector<Light>&
     return lights;
 }
 
-cli::RenderOptions with_sky(cli::RenderOptions options, const SkyControls& sky) {
+engine::RenderOptions with_sky(engine::RenderOptions options, const SkyControls& sky) {
     options.environment_rotate_deg = sky.rotate_deg;
     if (sky.sky == Sky::as_started) return options;
     options.environment = sky.sky == Sky::sky ? "sky" : "";
@@ -131,7 +131,7 @@ std::string as_flags(const Controls& now, const Controls& started, float exposur
         if (now.lobe.normalize) flags += " --normalize";
     }
     if (!now.own_lobes && now.over_own_lobes && !started.over_own_lobes) add("--own-lobes", "off");
-    flags += cli::differing_flags(settings_of(now, {}), settings_of(started, {}));
+    flags += engine::differing_flags(settings_of(now, {}), settings_of(started, {}));
     if (now.sky.sky != Sky::as_started) add("--env", kSkyNames[static_cast<std::size_t>(now.sky.sky)]);
     if (now.sky.rotate_deg != started.sky.rotate_deg) add("--env-rotate", now.sky.rotate_deg);
     if (now.exposure_ev != 0.0f) add("--exposure", std::log2(static_cast<double>(exposure)) + static_cast<double>(now.exposure_ev));

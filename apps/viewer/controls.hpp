@@ -1,7 +1,7 @@
 // The controls of the window as values: read from a job, changed by the user, and put into settings and lights.
 #pragma once
 
-#include "apps/halflit/render/render_job.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "halflit/light.hpp"
 #include "halflit/lobe.hpp"
 #include "halflit/settings.hpp"
@@ -58,7 +58,7 @@ struct Controls {
 };
 
 /// The controls' first values, for a job as its flags made it.
-[[nodiscard]] Controls controls_of(const cli::RenderJob& job, const cli::RenderOptions& options);
+[[nodiscard]] Controls controls_of(const engine::RenderJob& job, const engine::RenderOptions& options);
 
 /// Controls of these lights as they are.
 [[nodiscard]] std::vector<LightControl> light_controls(const std::vector<Light>& lights);
@@ -75,7 +75,7 @@ void choose_wrap(Controls& controls, float wrap);
 [[nodiscard]] std::vector<Light> lights_of(const Controls& controls, const std::vector<Light>& started);
 
 /// The flags with the controls' sky.
-[[nodiscard]] cli::RenderOptions with_sky(cli::RenderOptions options, const SkyControls& sky);
+[[nodiscard]] engine::RenderOptions with_sky(engine::RenderOptions options, const SkyControls& sky);
 
 /// The flags of `halflit render` that give the same lobe, highlights, shadows, sky, exposure and samples, where they differ from those of
 /// the start. There are none for changes of single lights, nor for a lobe's part that the start's flags set and that was taken back.

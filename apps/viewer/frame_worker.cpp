@@ -1,8 +1,8 @@
 #include "apps/viewer/frame_worker.hpp"
 
-#include "apps/halflit/report/pixel_story_json.hpp"
-#include "apps/halflit/report/run_report.hpp"
-#include "apps/halflit/report/scene_description.hpp"
+#include "apps/engine/answers/pixel_story_json.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/answers/scene_description.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -28,7 +28,7 @@ const std::vector<Light>& spread_suns(Lighting& light) {
 
 }  // namespace
 
-FrameWorker::FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, std::function<void()> notify)
+FrameWorker::FrameWorker(engine::RenderJob job, const engine::RenderOptions& options, std::function<void()> notify)
     : job_(std::move(job)),
       options_(options),
       notify_(std::move(notify)),
@@ -100,7 +100,7 @@ void FrameWorker::run() {
 DrawnFrame FrameWorker::answer(const FrameRequest& request) {
     DrawnFrame frame;
     frame.step = request.step;
-    const cli::Stopwatch watch;
+    const engine::Stopwatch watch;
     Result<void> done;
     try {
         done = apply(request, frame);
@@ -134,7 +134,7 @@ Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) 
     std::vector<Light>& lights = job_.light.lights;
     if (!(controls.sky == sky_)) {
         job_.camera = start_camera_;  // the studio stands as it did at the start
-        if (const auto changed = cli::change_light(job_, with_sky(options_, controls.sky)); !changed) return changed;
+        if (const auto changed = engine::change_light(job_, with_sky(options_, controls.sky)); !changed) return changed;
         sky_ = controls.sky;
         start_lights_ = spread_suns(job_.light);
         start_settings_.exposure = job_.settings.exposure;
@@ -159,23 +159,23 @@ Result<void> FrameWorker::draw(const FrameRequest& request, DrawnFrame& frame) {
         auto story = explain_pixel(probe_, *job_.prepared, job_.light, job_.camera, job_.settings, {job_.width, job_.height},
                                    request.pixel->x, request.pixel->y, job_.timed_execution());
         if (!story) return tl::unexpected(story.error());
-        frame.story = cli::in_file(std::move(*story), job_.source.placement);
+        frame.story = engine::in_file(std::move(*story), job_.source.placement);
         return {};
     }
     const int all_samples = job_.settings.samples;
     job_.settings.samples = request.step.samples;
-    frame.picture = cli::make_image(job_, false);
+    frame.picture = engine::make_image(job_, false);
     const auto rendered =
-        renderer_.render(*job_.prepared, job_.light, job_.camera, job_.settings, cli::target_of(job_, frame.picture), job_.execution);
+        renderer_.render(*job_.prepared, job_.light, job_.camera, job_.settings, engine::target_of(job_, frame.picture), job_.execution);
     if (!rendered) return tl::unexpected(rendered.error());
     frame.exposure = start_settings_.exposure;
     frame.size_ms = rendered->total_ms - rendered->ms.prepare - rendered->ms.plan - rendered->ms.shadows;
-    cli::Json report;
-    cli::add_frame(report, job_, *rendered, frame.picture);
-    frame.report = cli::to_lines(report);
+    engine::Json report;
+    engine::add_frame(report, job_, *rendered, frame.picture);
+    frame.report = engine::to_lines(report);
     if (!request.step.final_one) return {};
     job_.settings.samples = all_samples;
-    const auto plan = cli::describe_plan(job_);
+    const auto plan = engine::describe_plan(job_);
     if (!plan) return tl::unexpected(plan.error());
     frame.plan = *plan;
     return {};

@@ -1,7 +1,7 @@
 // A thread that draws, so that the window answers while a picture is made.
 #pragma once
 
-#include "apps/halflit/render/render_job.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "apps/viewer/controls.hpp"
 #include "apps/viewer/refinement.hpp"
 #include "halflit/explain.hpp"
@@ -47,7 +47,7 @@ struct DrawnFrame {
 class FrameWorker {
 public:
     /// notify: called on the thread when a result lies ready.
-    FrameWorker(cli::RenderJob job, const cli::RenderOptions& options, std::function<void()> notify);
+    FrameWorker(engine::RenderJob job, const engine::RenderOptions& options, std::function<void()> notify);
     ~FrameWorker();
     FrameWorker(const FrameWorker&) = delete;
     FrameWorker& operator=(const FrameWorker&) = delete;
@@ -67,8 +67,8 @@ private:
     Result<void> apply(const FrameRequest& request, DrawnFrame& frame);
     Result<void> draw(const FrameRequest& request, DrawnFrame& frame);
 
-    cli::RenderJob job_;
-    const cli::RenderOptions options_;
+    engine::RenderJob job_;
+    const engine::RenderOptions options_;
     const std::function<void()> notify_;
     const Camera start_camera_;
     Settings start_settings_;            ///< with the exposure of the present sky

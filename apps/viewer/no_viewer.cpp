@@ -7,7 +7,7 @@ bool has_viewer() { return false; }
 
 std::string missing_libraries() { return HALFLIT_VIEWER_LACKS; }
 
-Result<ViewerSummary> run_viewer(cli::RenderJob, const cli::RenderOptions&, const ViewerOptions&) {
+Result<ViewerSummary> run_viewer(engine::RenderJob, const engine::RenderOptions&, const ViewerOptions&) {
     return fail(ErrorCode::usage, "view: this build lacks " + missing_libraries());
 }
 

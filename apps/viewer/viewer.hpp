@@ -1,7 +1,7 @@
 // The window: a picture that a mouse turns, with controls beside it.
 #pragma once
 
-#include "apps/halflit/render/render_job.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "apps/viewer/rehearsal.hpp"
 #include "halflit/explain.hpp"
 
@@ -42,6 +42,6 @@ struct ViewerSummary {
 
 /// Opens the window and returns when it is closed, or when the rehearsal is over. The job is of the flags in `options`. Fails (usage)
 /// without the libraries or a display.
-[[nodiscard]] Result<ViewerSummary> run_viewer(cli::RenderJob job, const cli::RenderOptions& options, const ViewerOptions& how);
+[[nodiscard]] Result<ViewerSummary> run_viewer(engine::RenderJob job, const engine::RenderOptions& options, const ViewerOptions& how);
 
 }  // namespace halflit::viewer

@@ -1,7 +1,7 @@
 // What the command line asks its system for and a page does not have.
-#include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/render/camera_file.hpp"
-#include "apps/halflit/render/scene_source.hpp"
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/job/scene_source.hpp"
+#include "apps/engine/request/camera_file.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/process.hpp"

@@ -1,7 +1,7 @@
 #include "apps/web/picture_session.hpp"
 
-#include "apps/halflit/render/render_options.hpp"
-#include "apps/lab/trade_error.hpp"
+#include "apps/engine/request/render_options.hpp"
+#include "apps/engine/trade/trade_error.hpp"
 #include "apps/web/session_report.hpp"
 
 #include <algorithm>
@@ -81,8 +81,8 @@ Keys keys_of(const std::string& scene, const std::vector<std::string>& flags) {
 void PictureSession::forget_scene() { job_.reset(); }
 
 Result<void> PictureSession::apply(const std::string& scene, const std::vector<std::string>& flags) {
-    const cli::Stopwatch watch;
-    auto options = cli::parse_render_flags(flags);
+    const engine::Stopwatch watch;
+    auto options = engine::parse_render_flags(flags);
     if (!options) return tl::unexpected(options.error());
     if (options->film.views.size() > 1) return fail(ErrorCode::usage, "--view: one side for each picture");
     options->scene = scene;
@@ -95,13 +95,13 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
     if (job_ && keys.scene == scene_flags_) {
         const bool same_light = keys.light == light_flags_;
         light_flags_ = "?";  // until it is done
-        if (const auto changed = cli::change_job(*job_, *options, kUsualSize, same_light); !changed) {
+        if (const auto changed = engine::change_job(*job_, *options, kUsualSize, same_light); !changed) {
             job_.reset();
             return changed;
         }
     } else {
         job_.reset();  // its memory first
-        auto job = cli::make_render_job(*options, kUsualSize);
+        auto job = engine::make_render_job(*options, kUsualSize);
         if (!job) return tl::unexpected(job.error());
         job_.emplace(std::move(*job));
         scene_flags_ = std::move(keys.scene);
@@ -113,8 +113,8 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
 }
 
 Result<Image> PictureSession::render(const Settings& settings, bool linear) {
-    Image image = cli::make_image(*job_, linear);
-    auto report = renderer_.render(*job_->prepared, job_->light, job_->camera, settings, cli::target_of(*job_, image), job_->execution);
+    Image image = engine::make_image(*job_, linear);
+    auto report = renderer_.render(*job_->prepared, job_->light, job_->camera, settings, engine::target_of(*job_, image), job_->execution);
     if (!report) return tl::unexpected(report.error());
     last_ = std::move(*report);
     return image;
@@ -151,12 +151,12 @@ Result<void> PictureSession::compare(const std::string& scene, const std::vector
     settings.shading.max_error_codes = 0.0;
     settings.shading.environment_bands = 0;
     settings.shading.accuracy = Accuracy::reference;
-    const cli::Stopwatch watch;
+    const engine::Stopwatch watch;
     const auto truth = render(settings, true);
     if (!truth) return tl::unexpected(truth.error());
     const double reference_ms = watch.ms();
-    const cli::TradeReference reference(*truth, *coverage, job_->settings.tone_curve);
-    const cli::TradeError error = reference.error_of(*drawn);
+    const engine::TradeReference reference(*truth, *coverage, job_->settings.tone_curve);
+    const engine::TradeError error = reference.error_of(*drawn);
     const double gain = 255.0 / std::max(error.max, 1e-6);
     picture_ = reference.difference(*drawn, gain);
     comparison_ = error_report(error, reference_ms);

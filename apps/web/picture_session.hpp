@@ -1,7 +1,7 @@
 // The page's scene between two pictures: it stays loaded, prepared and lit as far as the flags allow.
 #pragma once
 
-#include "apps/halflit/render/render_job.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "halflit/renderer.hpp"
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace halflit::web {
 
 /// Size of pictures without --size, as `halflit render` has it.
-inline constexpr PictureSize kUsualSize = cli::kRenderSize;
+inline constexpr PictureSize kUsualSize = engine::kRenderSize;
 
 class PictureSession {
 public:
@@ -30,14 +30,14 @@ public:
     /// Loads, prepares and lights what draw() would draw.
     Result<void> apply(const std::string& scene, const std::vector<std::string>& flags);
     /// Null before the first apply() or draw(), and where that failed.
-    [[nodiscard]] const cli::RenderJob* job() const { return job_ ? &*job_ : nullptr; }
+    [[nodiscard]] const engine::RenderJob* job() const { return job_ ? &*job_ : nullptr; }
     /// The renderer's, of the last picture.
     [[nodiscard]] const RenderReport& rendered() const { return last_; }
 
 private:
     Result<Image> render(const Settings& settings, bool linear);
 
-    std::optional<cli::RenderJob> job_;
+    std::optional<engine::RenderJob> job_;
     std::string scene_flags_, light_flags_;  ///< those that the job was made and lit by
     Renderer renderer_;
     RenderReport last_;

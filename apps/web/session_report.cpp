@@ -1,6 +1,6 @@
 #include "apps/web/session_report.hpp"
 
-#include "apps/halflit/flags/plan_names.hpp"
+#include "apps/engine/request/plan_names.hpp"
 #include "apps/viewer/orbit_camera.hpp"
 #include "halflit/version.hpp"
 #include "sh/lobe_error.hpp"
@@ -31,7 +31,7 @@ std::string point(Vec3d p) { return fmt::format("[{},{},{}]", number(p.x, 17), n
 /// The camera as --camera-position, --camera-target and --fov give it, in the file's world, where a turn by the mouse begins. A camera made
 /// for a wider picture shows its width, and more above and below. There is no flag for an orthographic one: a perspective one shows the
 /// same height at the target.
-std::string view_of(const cli::RenderJob& job) {
+std::string view_of(const engine::RenderJob& job) {
     constexpr double kFlatFovDeg = 35.0;
     const auto tangent = [](double fov_rad) { return std::tan(fov_rad / 2); };
     const Camera& camera = job.camera;
@@ -79,7 +79,7 @@ std::string json_text(std::string_view text) {
     return out + "\"";
 }
 
-std::string picture_report(const cli::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms) {
+std::string picture_report(const engine::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms) {
     std::vector<std::string> warnings = job.warnings;
     warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
     int bands = 0;
@@ -97,7 +97,7 @@ std::string picture_report(const cli::RenderJob& job, const RenderReport& report
         list_of(job.choices, json_text), list_of(warnings, json_text));
 }
 
-std::string error_report(const cli::TradeError& error, double reference_ms) {
+std::string error_report(const engine::TradeError& error, double reference_ms) {
     return fmt::format(R"({{"max":{},"mean":{},"p999":{},"reference_ms":{:.1f}}})", number(error.max), number(error.mean),
                        number(error.p999), reference_ms);
 }
@@ -121,8 +121,9 @@ std::string table_report() {
                            json_text(model.name), model.takes_wrap, model.wrap, model.power, model.power_per_wrap, model.normalize);
     };
     return fmt::format(R"({{"version":{},"pixel_epoch":{},"usual_wrap":{},"lobes":{},"specular":{},"shadows":{},"tonemap":{}}})",
-                       json_text(version()), kPixelEpoch, kUsualWrap, list_of(kNamedLobes, lobe), list_of(cli::kSpecularNames, json_text),
-                       list_of(cli::kShadowModeNames, json_text), list_of(cli::kToneCurveNames, json_text));
+                       json_text(version()), kPixelEpoch, kUsualWrap, list_of(kNamedLobes, lobe),
+                       list_of(engine::kSpecularNames, json_text), list_of(engine::kShadowModeNames, json_text),
+                       list_of(engine::kToneCurveNames, json_text));
 }
 
 }  // namespace halflit::web

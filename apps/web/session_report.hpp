@@ -1,8 +1,8 @@
 // JSON for the page, written by hand: a few short records do not need a library.
 #pragma once
 
-#include "apps/halflit/render/render_job.hpp"
-#include "apps/lab/trade_error.hpp"
+#include "apps/engine/job/render_job.hpp"
+#include "apps/engine/trade/trade_error.hpp"
 #include "halflit/report.hpp"
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace halflit::web {
 
 /// apply_ms: loading, preparing and lighting, as far as that was necessary.
-[[nodiscard]] std::string picture_report(const cli::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms);
-[[nodiscard]] std::string error_report(const cli::TradeError& error, double reference_ms);
+[[nodiscard]] std::string picture_report(const engine::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms);
+[[nodiscard]] std::string error_report(const engine::TradeError& error, double reference_ms);
 
 /// A lobe's values at `samples` cosines from -1 to 1, its series of `bands` bands there, the bands, and the error of the series.
 [[nodiscard]] std::string lobe_report(const Lobe& lobe, int bands, int samples);

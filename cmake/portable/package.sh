@@ -86,7 +86,7 @@ fi
 if [ "$only" = wheel ]; then exit 0; fi
 
 cp "$root/LICENSE" "$root/docs/SKILL.md" "$made/$package/"
-cp "$root/apps/halflit/fonts/LICENSE" "$made/$package/licences/dejavu-fonts.txt"
+cp "$root/apps/engine/fonts/LICENSE" "$made/$package/licences/dejavu-fonts.txt"
 if [ $system = windows ]; then
     # The program beside the library for C, its header, and what linkers take: an import library, and the list of names for others.
     mkdir -p "$made/$package/include/halflit" "$made/$package/lib"

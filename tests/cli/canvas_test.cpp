@@ -1,6 +1,6 @@
 // Shapes on a canvas, text, and marks: against areas in closed form, and by moving them.
-#include "apps/halflit/report/marks.hpp"
-#include "apps/halflit/report/sheet_page.hpp"
+#include "apps/engine/pictures/marks.hpp"
+#include "apps/engine/pictures/sheet_page.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -8,7 +8,7 @@
 #include <random>
 
 using namespace halflit;
-using namespace halflit::cli;
+using namespace halflit::engine;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "apps/halflit/report/picture_diff.hpp"
+#include "apps/engine/pictures/picture_diff.hpp"
 #include "tests/cli/program.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Moving pictures: frames as files and in one file, read back by other code than wrote them.
-#include "apps/film/gif_palette.hpp"
+#include "apps/engine/film/gif_palette.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/io/animated_file.hpp"
 #include "tests/support/skip.hpp"

@@ -1,4 +1,4 @@
-#include "apps/halflit/flags/values.hpp"
+#include "apps/engine/request/values.hpp"
 #include "tests/cli/program.hpp"
 
 #include "tests/support/catch.hpp"
@@ -8,7 +8,7 @@
 #include <numbers>
 
 using namespace halflit;
-using namespace halflit::cli;
+using namespace halflit::engine;
 using namespace halflit::test;
 
 namespace {

@@ -1,11 +1,11 @@
-#include "apps/lab/trade_error.hpp"
+#include "apps/engine/trade/trade_error.hpp"
 
 #include "tests/support/catch.hpp"
 
 #include <cmath>
 
 using namespace halflit;
-using cli::TradeError, cli::TradeReference;
+using engine::TradeError, engine::TradeReference;
 
 namespace {
 

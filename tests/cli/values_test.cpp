@@ -1,6 +1,4 @@
-#include "apps/halflit/flags/values.hpp"
-
-#include "apps/halflit/program/messages.hpp"
+#include "apps/engine/request/values.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -10,7 +8,7 @@
 #include <string>
 
 using namespace halflit;
-using namespace halflit::cli;
+using namespace halflit::engine;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 using namespace halflit;
-using namespace halflit::cli;
+using namespace halflit::engine;
 using namespace halflit::test;
 
 namespace {

@@ -1,7 +1,7 @@
 // A scene with its certificate, for tests.
 #pragma once
 
-#include "apps/halflit/look/certificate.hpp"
+#include "apps/engine/look/certificate.hpp"
 #include "tests/look/ray_view.hpp"
 #include "tests/look/scene_job.hpp"
 
@@ -11,8 +11,8 @@
 namespace halflit::test {
 
 struct Certified {
-    cli::RenderJob job;
-    cli::Certificate certificate;
+    engine::RenderJob job;
+    engine::Certificate certificate;
     std::vector<RayTriangle> triangles;
 };
 
@@ -21,7 +21,7 @@ inline Certified certified(Scene scene, int width, int height, int least, std::s
     Certified out{scene_job(std::move(scene), width, height), {}, {}};
     out.job.execution.threads = threads;
     Renderer renderer;
-    std::vector<cli::ViewShot> given;
+    std::vector<engine::ViewShot> given;
     for (const NamedView& view : kNamedViews) {
         if (view.name != "front" && view.name != "right" && view.name != "top" && view.name != "iso") continue;
         const Camera camera = parallel_view(out.job, view.azimuth_deg, view.elevation_deg, 0.2);

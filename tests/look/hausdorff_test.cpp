@@ -1,5 +1,5 @@
 // The nearest triangle, and the largest distance between two surfaces, against brute force.
-#include "apps/halflit/compare/hausdorff.hpp"
+#include "apps/engine/compare/hausdorff.hpp"
 #include "halflit/shapes.hpp"
 #include "sh/vec3d.hpp"
 #include "tests/support/catch.hpp"
@@ -9,7 +9,7 @@
 #include <vector>
 
 using namespace halflit;
-using namespace halflit::cli;
+using namespace halflit::engine;
 using namespace halflit::test;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/halflit/look/part_views.hpp"
+#include "apps/engine/look/part_views.hpp"
 #include "sh/vec3d.hpp"
 #include "tests/look/ray_view.hpp"
 #include "tests/look/scene_job.hpp"
@@ -9,7 +9,7 @@
 #include <array>
 
 using namespace halflit;
-using namespace halflit::cli;
+using namespace halflit::engine;
 using namespace halflit::test;
 
 namespace {

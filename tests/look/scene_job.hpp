@@ -1,7 +1,7 @@
 // A render job of a scene that a test makes, as `halflit look` would make it of a file.
 #pragma once
 
-#include "apps/halflit/look/view_shot.hpp"
+#include "apps/engine/look/view_shot.hpp"
 #include "tests/support/catch.hpp"
 
 #include <memory>
@@ -10,11 +10,11 @@
 namespace halflit::test {
 
 /// Each instance is a part.
-inline cli::RenderJob scene_job(Scene scene, int width, int height) {
-    cli::RenderJob job;
+inline engine::RenderJob scene_job(Scene scene, int width, int height) {
+    engine::RenderJob job;
     job.source.name = "model";
     job.source.scene = std::make_unique<Scene>(std::move(scene));
-    job.source.parts = std::make_shared<cli::Parts>(job.scene());
+    job.source.parts = std::make_shared<engine::Parts>(job.scene());
     auto prepared = PreparedScene::make(job.scene(), job.execution);
     if (!prepared) FAIL(prepared.error().message);
     job.prepared = std::move(*prepared);
@@ -31,7 +31,7 @@ inline cli::RenderJob scene_job(Scene scene, int width, int height) {
 }
 
 /// A view by parallel rays that shows the whole scene.
-inline Camera parallel_view(const cli::RenderJob& job, float azimuth_deg, float elevation_deg, double margin = 0.13) {
+inline Camera parallel_view(const engine::RenderJob& job, float azimuth_deg, float elevation_deg, double margin = 0.13) {
     ViewSettings view{.azimuth_deg = azimuth_deg, .elevation_deg = elevation_deg, .orthographic = true};
     view.margin_x = view.margin_y = margin;
     return frame_scene(job.scene(), job.film.bounds, static_cast<float>(job.width) / static_cast<float>(job.height), view);

@@ -1,5 +1,5 @@
-#include "apps/halflit/look/look_sheet.hpp"
-#include "apps/halflit/report/lettering.hpp"
+#include "apps/engine/look/look_sheet.hpp"
+#include "apps/engine/pictures/lettering.hpp"
 #include "tests/look/scene_job.hpp"
 #include "tests/support/solids.hpp"
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 using namespace halflit;
-using namespace halflit::cli;
+using namespace halflit::engine;
 using namespace halflit::test;
 
 namespace {

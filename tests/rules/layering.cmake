@@ -32,18 +32,27 @@ set(subfolders
     "apps/io/gltf/file/=apps/io/(gltf/(codecs|build|animation)|models)/"
     "apps/io/gltf/codecs/=apps/io/(gltf/(build|animation)|models)/"
     "apps/io/gltf/build/=apps/io/(gltf/animation|models)/"
-    "apps/halflit/program/=apps/(halflit/(flags|render|report|look|compare|farm|golden|mcp|commands)|lab|viewer)/"
-    "apps/halflit/flags/=apps/(halflit/(render|report|look|compare|farm|golden|mcp|commands)|lab|viewer)/"
-    "apps/halflit/render/=apps/(halflit/(report|look|compare|farm|golden|mcp|commands)|lab|viewer)/"
-    "apps/halflit/report/=apps/(halflit/(look|compare|farm|golden|mcp|commands)|lab|viewer)/"
-    "apps/halflit/look/=apps/(halflit/(compare|farm|golden|mcp|commands)|lab|viewer)/"
-    "apps/halflit/compare/=apps/(halflit/(farm|golden|mcp|commands)|lab|viewer)/"
+    "apps/engine/basics/=apps/engine/(film|request|job|pictures|answers|look|compare|trade)/"
+    "apps/engine/film/=apps/engine/(basics|request|job|pictures|answers|look|compare|trade)/"
+    "apps/engine/request/=apps/engine/(job|pictures|answers|look|compare|trade)/"
+    "apps/engine/job/=apps/engine/(pictures|answers|look|compare|trade)/"
+    "apps/engine/pictures/=apps/engine/(answers|look|compare|trade)/"
+    "apps/engine/answers/=apps/engine/(look|compare|trade)/"
+    "apps/engine/look/=apps/engine/(compare|trade)/"
+    "apps/engine/compare/=apps/engine/trade/"
+    "apps/halflit/program/=apps/(halflit/(flags|farm|golden|mcp|commands)|lab|viewer)/"
+    "apps/halflit/flags/=apps/(halflit/(farm|golden|mcp|commands)|lab|viewer)/"
     "apps/halflit/farm/=apps/(halflit/(golden|mcp|commands)|lab|viewer)/"
     "apps/halflit/golden/=apps/(halflit/(farm|mcp|commands)|lab|viewer)/"
     "apps/halflit/mcp/=apps/(halflit/(golden|commands)|lab|viewer)/"
     # The C interface and all that stands on io know what is public and what program and library share.
-    "apps/io/=apps/(c|halflit|film|viewer|lab|web|npm)/"
-    "apps/c/=apps/(halflit|film|viewer|lab|web|npm)/")
+    "apps/io/=apps/(engine|c|halflit|viewer|lab|web|npm)/"
+    "apps/engine/=apps/(c|halflit|viewer|lab|web|npm)/"
+    "apps/c/=apps/(halflit|viewer|lab|web|npm)/"
+    "apps/lab/=apps/(c|viewer|web|npm)/"
+    "apps/viewer/=apps/(c|halflit|lab|web|npm)/"
+    "apps/web/=apps/(c|halflit|lab)/"
+    "apps/npm/=apps/(c|halflit|lab|viewer)/")
 set(failures "")
 set(file_count 0)
 

@@ -28,7 +28,7 @@ struct Started {
 
 Started start(const std::string& scene, const std::vector<std::string>& flags) {
     Started started{open_job(scene, flags), {}};
-    const cli::RenderJob& job = started.opened.job;
+    const engine::RenderJob& job = started.opened.job;
     started.request = {job.camera, controls_of(job, started.opened.options), job.width, job.height, {1, job.settings.samples, true}};
     return started;
 }

@@ -1,7 +1,7 @@
 #include "apps/viewer/orbit_camera.hpp"
 
-#include "apps/halflit/render/render_options.hpp"
-#include "apps/halflit/render/scene_view.hpp"
+#include "apps/engine/request/render_options.hpp"
+#include "apps/engine/request/scene_view.hpp"
 #include "raster/view/projection.hpp"
 #include "tests/support/catch.hpp"
 
@@ -33,7 +33,7 @@ double off_axis(const Camera& camera, Vec3d p) { return length(cross(p - column(
 const Vec3d kCenter{1, 0, 0};
 
 /// Looks at the centre.
-Camera centred() { return cli::placed_camera({7, 3, 9}, to_float(kCenter), 40.0f, box()); }
+Camera centred() { return engine::placed_camera({7, 3, 9}, to_float(kCenter), 40.0f, box()); }
 
 }  // namespace
 
@@ -122,11 +122,11 @@ TEST_CASE("orbit camera: its flags place a camera with the same view, far from t
         std::istringstream line(orbit.flags(1.5, placement));
         std::vector<std::string> flags;
         for (std::string word; line >> word;) flags.push_back(word);
-        const auto options = cli::parse_render_flags(flags);
+        const auto options = engine::parse_render_flags(flags);
         REQUIRE(options);
         const auto drawn = [&](Vec3d p) { return to_float(placement.into(p)); };
-        const Camera placed = cli::placed_camera(drawn(options->camera_position.value()), drawn(options->camera_target.value()),
-                                                 options->view.fov_y_deg, box());
+        const Camera placed = engine::placed_camera(drawn(options->camera_position.value()), drawn(options->camera_target.value()),
+                                                    options->view.fov_y_deg, box());
         const Mat4 a = raster::clip_from_world(placed, 1.5f), b = raster::clip_from_world(orbit.camera(), 1.5f);
         for (int i = 0; i < 4; ++i)
             for (const auto part : {&Vec4f::x, &Vec4f::y, &Vec4f::z, &Vec4f::w}) CHECK(a.c[i].*part == Approx(b.c[i].*part).margin(1e-5));

@@ -1,4 +1,4 @@
-#include "apps/halflit/report/pixel_story_text.hpp"
+#include "apps/engine/answers/pixel_story_text.hpp"
 #include "halflit/explain.hpp"
 
 #include "tests/viewer/jobs.hpp"
@@ -8,13 +8,13 @@
 
 using namespace halflit;
 using namespace halflit::test;
-using halflit::cli::story_text;
+using halflit::engine::story_text;
 
 namespace {
 
 PixelStory story_of(OpenedJob& opened, int x, int y) {
     Renderer renderer;
-    const cli::RenderJob& job = opened.job;
+    const engine::RenderJob& job = opened.job;
     auto story = explain_pixel(renderer, *job.prepared, job.light, job.camera, job.settings, {job.width, job.height}, x, y, job.execution);
     if (!story) FAIL(story.error().message);
     return std::move(*story);

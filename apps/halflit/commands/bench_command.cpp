@@ -1,11 +1,11 @@
 // halflit bench: the time of a frame, from a scene in memory to 8-bit codes in memory.
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/basics/median.hpp"
+#include "apps/engine/basics/stopwatch.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/median.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/stopwatch.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/render/render_job.hpp"
-#include "apps/halflit/report/run_report.hpp"
 #include "apps/io/platform/process.hpp"
 #include "halflit/image.hpp"
 

@@ -1,5 +1,10 @@
 #include "apps/halflit/commands/commands.hpp"
 
+#include "apps/engine/request/render_options.hpp"
+#include "apps/halflit/flags/message_flags.hpp"
+
+#include <algorithm>
+
 namespace halflit::cli {
 
 std::vector<Command> all_commands() {
@@ -7,8 +12,13 @@ std::vector<Command> all_commands() {
     for (const auto make :
          {render_command,     view_command, bench_command, info_command,   explain_command,    diff_command, compare_command, sheet_command,
           look_command,       plan_command, merge_command, golden_command, lobe_command,       env_command,  figures_command, trade_command,
-          playground_command, mcp_command,  help_command,  man_command,    completion_command, flags_command})
-        commands.push_back(make());
+          playground_command, mcp_command,  help_command,  man_command,    completion_command, flags_command}) {
+        Command& command = commands.emplace_back(make());
+        // Those that draw a scene have the engine's flags, which say nothing of messages.
+        const auto last = std::find_if(command.groups.begin(), command.groups.end(),
+                                       [](const FlagGroup& group) { return group.title == kLastPictureGroup; });
+        if (last != command.groups.end()) command.groups.insert(last + 1, {"Messages", message_flags()});
+    }
     return commands;
 }
 

@@ -1,7 +1,8 @@
 // The sub-commands, as tables.
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/request/flags.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 namespace halflit::cli {
 

@@ -1,11 +1,11 @@
 // halflit compare: what changed between two versions of a model, in pictures and numbers.
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/output_folder.hpp"
+#include "apps/engine/basics/timeout.hpp"
+#include "apps/engine/compare/compare_files.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/compare/compare_files.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/program/timeout.hpp"
 #include "apps/io/platform/paths.hpp"
 #include "halflit/image.hpp"
 

@@ -1,11 +1,11 @@
 // halflit diff: the difference of two pictures, or of two folders of pictures, in 8-bit codes.
+#include "apps/engine/answers/picture_compare.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/request/values.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/flags/values.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/report/picture_compare.hpp"
-#include "apps/halflit/report/run_report.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>

@@ -1,9 +1,9 @@
 // halflit explain: what made a pixel.
+#include "apps/engine/answers/pixel_stories.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/render/render_job.hpp"
-#include "apps/halflit/report/pixel_stories.hpp"
 #include "apps/io/platform/process.hpp"
 
 #include <memory>

@@ -1,12 +1,12 @@
 // halflit golden: draws a list of scenes, and compares them with the pictures that are expected.
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/output_folder.hpp"
+#include "apps/engine/request/values.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/flags/values.hpp"
 #include "apps/halflit/golden/report.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/report/run_report.hpp"
 #include "apps/io/platform/files.hpp"
 
 #include <fmt/format.h>

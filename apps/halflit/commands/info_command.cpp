@@ -1,10 +1,10 @@
 // halflit info: describes a scene, and what drawing it requires.
+#include "apps/engine/answers/scene_description.hpp"
+#include "apps/engine/basics/timeout.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/program/timeout.hpp"
-#include "apps/halflit/render/render_job.hpp"
-#include "apps/halflit/report/scene_description.hpp"
 
 #include <memory>
 

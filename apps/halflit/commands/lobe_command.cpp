@@ -1,9 +1,9 @@
 // halflit lobe: a diffuse lobe's curve, its bands (coefficients in spherical harmonics), and the error of its series of N bands.
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/request/lobe_model.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/render/lobe_model.hpp"
-#include "apps/halflit/report/run_report.hpp"
 #include "sh/lobe_error.hpp"
 
 #include <fmt/core.h>

@@ -1,11 +1,11 @@
 // halflit look: labelled views of a model on one sheet, and a report of what they show.
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/output_folder.hpp"
+#include "apps/engine/basics/timeout.hpp"
+#include "apps/engine/look/look.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/look/look.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/output_folder.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/program/timeout.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/files/in_parts.hpp"
 #include "apps/io/platform/process.hpp"
@@ -49,6 +49,7 @@ Result<void> write_pictures(const LookFiles& options, const std::vector<ViewPict
 Result<int> look_and_write(const LookFiles& options) {
     const auto result = look(options);
     if (!result) return tl::unexpected(result.error());
+    for (const std::string& warning : result->warnings) print_warning(warning);
     std::vector<std::string> outputs{options.output, options.json};
     for (const ViewPicture& picture : result->pictures) outputs.push_back(picture.path);
     for (const std::string& path : outputs)

@@ -1,8 +1,8 @@
 // halflit mcp: tools for agents, over the Model Context Protocol.
+#include "apps/engine/request/file_flags.hpp"
+#include "apps/engine/request/values.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/flags/values.hpp"
 #include "apps/halflit/mcp/server.hpp"
-#include "apps/halflit/render/file_flags.hpp"
 
 #include <fmt/core.h>
 

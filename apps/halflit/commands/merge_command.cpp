@@ -1,7 +1,7 @@
 // halflit merge: verifies what shards have drawn, and joins it.
+#include "apps/engine/basics/file_names.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/farm/shard_reports.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/pictures/float_image.hpp"

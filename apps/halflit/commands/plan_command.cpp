@@ -1,12 +1,12 @@
 // halflit plan: the commands of a run that many processes share, for schedulers.
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/spelling.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/farm/render_line.hpp"
 #include "apps/halflit/flags/command_line.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/report/run_report.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 // halflit playground: the browser page (apps/web), which the build gives as a file and the program carries.
 #include "apps/halflit/commands/commands.hpp"
+#include "apps/halflit/flags/message_flags.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/io/files/atomic_file.hpp"
 

@@ -1,11 +1,11 @@
 // Commands that print the tables: help, man, completion, flags.
+#include "apps/engine/basics/spelling.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/flags/agent_pages.hpp"
 #include "apps/halflit/flags/completion.hpp"
 #include "apps/halflit/flags/help_text.hpp"
 #include "apps/halflit/flags/manual.hpp"
 #include "apps/halflit/mcp/server.hpp"
-#include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/program/terminal.hpp"
 #include "apps/halflit/program/text_file.hpp"
 

@@ -1,11 +1,11 @@
 // halflit render: draws a scene into a picture.
+#include "apps/engine/answers/run_report.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/farm/render_film.hpp"
 #include "apps/halflit/farm/render_line.hpp"
 #include "apps/halflit/farm/render_many.hpp"
 #include "apps/halflit/program/interrupt.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/report/run_report.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/platform/process.hpp"
 

@@ -1,9 +1,9 @@
 // halflit sheet: draws many scenes into one picture, with names and reference pictures.
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/job/render_job.hpp"
+#include "apps/engine/pictures/sheet_page.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/file_names.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/render/render_job.hpp"
-#include "apps/halflit/report/sheet_page.hpp"
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/files/model_files.hpp"
 #include "apps/io/pictures/picture_reader.hpp"

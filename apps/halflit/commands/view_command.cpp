@@ -1,12 +1,12 @@
 // halflit view: shows a scene in a window, where it can be turned and its settings be changed.
+#include "apps/engine/answers/pixel_story_json.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/basics/median.hpp"
+#include "apps/engine/basics/spelling.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/commands/commands.hpp"
-#include "apps/halflit/program/median.hpp"
 #include "apps/halflit/program/messages.hpp"
-#include "apps/halflit/program/spelling.hpp"
 #include "apps/halflit/program/text_file.hpp"
-#include "apps/halflit/render/render_job.hpp"
-#include "apps/halflit/report/pixel_story_json.hpp"
-#include "apps/halflit/report/run_report.hpp"
 #include "apps/io/platform/process.hpp"
 #include "apps/viewer/viewer.hpp"
 

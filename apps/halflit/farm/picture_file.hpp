@@ -1,9 +1,10 @@
 // One scene's picture: drawn, encoded, and written with the files beside it.
 #pragma once
 
+#include "apps/engine/job/aov.hpp"
+#include "apps/engine/request/render_options.hpp"
 #include "apps/halflit/farm/shard.hpp"
-#include "apps/halflit/render/aov.hpp"
-#include "apps/halflit/render/render_options.hpp"
+#include "apps/halflit/program/engine.hpp"
 #include "halflit/image.hpp"
 
 #include <cstdint>
@@ -14,9 +15,10 @@
 #include <string_view>
 #include <vector>
 
-namespace halflit::cli {
-
+namespace halflit::engine {
 struct RenderJob;
+}
+namespace halflit::cli {
 
 /// One of several outputs of a run: the scene's place among the scenes.
 struct ScenePlace {

@@ -1,6 +1,6 @@
 #include "apps/halflit/farm/picture_report.hpp"
 
-#include "apps/halflit/report/run_report.hpp"
+#include "apps/engine/answers/run_report.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,9 @@
 // The report of one picture, of one of many, or of one frame of a film.
 #pragma once
 
+#include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/farm/picture_file.hpp"
-#include "apps/halflit/render/render_job.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <string>
 

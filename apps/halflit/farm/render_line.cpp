@@ -1,8 +1,8 @@
 #include "apps/halflit/farm/render_line.hpp"
 
-#include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/render/camera_file.hpp"
-#include "apps/halflit/render/scene_source.hpp"
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/job/scene_source.hpp"
+#include "apps/engine/request/camera_file.hpp"
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/pictures/picture_reader.hpp"
 #include "halflit/image.hpp"

@@ -1,6 +1,6 @@
 #include "apps/halflit/farm/shard.hpp"
 
-#include "apps/halflit/flags/values.hpp"
+#include "apps/engine/request/values.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
 // Shards: parts of a run that processes draw beside each other, on one machine or on many.
 #pragma once
 
-#include "apps/halflit/render/film_options.hpp"
+#include "apps/engine/request/film_options.hpp"
+#include "apps/halflit/program/engine.hpp"
 #include "halflit/error.hpp"
 #include "halflit/settings.hpp"
 

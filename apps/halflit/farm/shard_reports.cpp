@@ -1,6 +1,6 @@
 #include "apps/halflit/farm/shard_reports.hpp"
 
-#include "apps/halflit/program/file_names.hpp"
+#include "apps/engine/basics/file_names.hpp"
 #include "apps/io/files/file_access.hpp"
 #include "halflit/target.hpp"
 

@@ -1,7 +1,8 @@
 // Pages for agents, made from the tables: how to use the program (docs/SKILL.md), and an index of the documentation (llms.txt).
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/request/flags.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <span>
 #include <string>

@@ -1,8 +1,8 @@
 // The only source that includes CLI11, which takes seconds to compile.
 #include "apps/halflit/flags/command_line.hpp"
 
-#include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/program/spelling.hpp"
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/spelling.hpp"
 
 #include <CLI/CLI.hpp>
 

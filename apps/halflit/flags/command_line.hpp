@@ -1,7 +1,8 @@
 // Splits the command line by the tables of the commands, and reads the values.
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/request/flags.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <span>
 #include <string>

@@ -1,7 +1,8 @@
 // Scripts by which shells complete commands, flags and their values, made from the tables.
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/request/flags.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <span>
 #include <string>

@@ -1,7 +1,8 @@
 // The texts of --help, folded to a width.
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/request/flags.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <span>
 #include <string>

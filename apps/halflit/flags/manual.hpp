@@ -1,7 +1,8 @@
 // Manual pages (roff) and the flags' page of the documentation (Markdown), made from the tables.
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/request/flags.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <span>
 #include <string>

@@ -1,8 +1,9 @@
 // Drawing of the scenes of a golden list, and their comparison with the expected pictures.
 #pragma once
 
+#include "apps/engine/answers/picture_compare.hpp"
 #include "apps/halflit/golden/list.hpp"
-#include "apps/halflit/report/picture_compare.hpp"
+#include "apps/halflit/program/engine.hpp"
 #include "halflit/error.hpp"
 
 #include <functional>

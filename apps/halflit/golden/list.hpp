@@ -2,8 +2,9 @@
 // hashes.txt has the hashes of their pixels, and cameras.txt the cameras of those that were framed. docs/golden.md describes the files.
 #pragma once
 
-#include "apps/halflit/render/render_options.hpp"
-#include "apps/halflit/report/picture_diff.hpp"
+#include "apps/engine/pictures/picture_diff.hpp"
+#include "apps/engine/request/render_options.hpp"
+#include "apps/halflit/program/engine.hpp"
 #include "halflit/error.hpp"
 
 #include <map>

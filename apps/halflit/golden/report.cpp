@@ -1,7 +1,7 @@
 #include "apps/halflit/golden/report.hpp"
 
-#include "apps/halflit/program/xml_text.hpp"
-#include "apps/halflit/report/html_page.hpp"
+#include "apps/engine/basics/xml_text.hpp"
+#include "apps/engine/pictures/html_page.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "apps/halflit/golden/self_test.hpp"
 
-#include "apps/halflit/render/render_job.hpp"
+#include "apps/engine/job/render_job.hpp"
 #include "apps/io/platform/process.hpp"
 #include "halflit/isa.hpp"
 #include "halflit/target.hpp"

@@ -1,7 +1,8 @@
 // The program's test of itself: small built-in scenes, drawn by every instruction set of this machine, against hashes that are built in.
 #pragma once
 
-#include "apps/halflit/render/render_options.hpp"
+#include "apps/engine/request/render_options.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <cstdint>
 #include <span>

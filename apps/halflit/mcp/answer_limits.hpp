@@ -1,7 +1,8 @@
 // Answers that an agent can read: long lists are cut, and what is left out is counted.
 #pragma once
 
-#include "apps/halflit/report/run_report.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,6 +1,6 @@
 #include "apps/halflit/mcp/kept_scenes.hpp"
 
-#include "apps/halflit/render/built_in_scenes.hpp"
+#include "apps/engine/job/built_in_scenes.hpp"
 #include "apps/io/gltf/build/pose_sources.hpp"
 #include "apps/io/platform/files.hpp"
 

@@ -1,7 +1,8 @@
 // Scenes that were loaded, kept for the next call on the same file.
 #pragma once
 
-#include "apps/halflit/render/scene_source.hpp"
+#include "apps/engine/job/scene_source.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "apps/halflit/mcp/model_folder.hpp"
 
-#include "apps/halflit/program/file_names.hpp"
-#include "apps/halflit/render/built_in_scenes.hpp"
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/job/built_in_scenes.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
 

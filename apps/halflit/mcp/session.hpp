@@ -1,7 +1,8 @@
 // The Model Context Protocol over JSON-RPC 2.0: what is answered to each message. It knows of tools only what ToolHost says.
 #pragma once
 
-#include "apps/halflit/report/run_report.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <nlohmann/json.hpp>
 

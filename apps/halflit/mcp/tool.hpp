@@ -1,10 +1,11 @@
 // The tools that agents call, as a table. From a row follow its entry in tools/list, the check of its arguments, and the call.
 #pragma once
 
-#include "apps/halflit/flags/flags.hpp"
+#include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/request/flags.hpp"
+#include "apps/engine/request/render_options.hpp"
 #include "apps/halflit/mcp/model_folder.hpp"
-#include "apps/halflit/render/render_options.hpp"
-#include "apps/halflit/report/run_report.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
+#include "apps/engine/basics/spelling.hpp"
+#include "apps/engine/job/built_in_scenes.hpp"
 #include "apps/halflit/mcp/tool.hpp"
-#include "apps/halflit/program/spelling.hpp"
-#include "apps/halflit/render/built_in_scenes.hpp"
 
 #include <algorithm>
 #include <array>

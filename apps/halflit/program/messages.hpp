@@ -2,17 +2,14 @@
 // is a terminal and the environment variable NO_COLOR is not set.
 #pragma once
 
-#include "apps/io/files/text.hpp"
+#include "apps/engine/basics/printable.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace halflit::cli {
-
-/// Escapes control characters and bytes that are not UTF-8, in text of any length. So a name from a file cannot control the terminal or
-/// forge a second line.
-[[nodiscard]] inline std::string printable(std::string_view text) { return io::printable(text, std::string_view::npos); }
 
 enum class Verbosity : std::uint8_t {
     quiet,  ///< errors alone

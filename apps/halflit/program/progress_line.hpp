@@ -1,7 +1,8 @@
 // Progress of a long run: one line on standard error, which each step overwrites and the end erases.
 #pragma once
 
-#include "apps/halflit/program/stopwatch.hpp"
+#include "apps/engine/basics/stopwatch.hpp"
+#include "apps/halflit/program/engine.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,6 +1,6 @@
 #include "apps/viewer/window/panels.hpp"
 
-#include "apps/halflit/flags/plan_names.hpp"
+#include "apps/engine/request/plan_names.hpp"
 #include "sh/zonal.hpp"
 #include "shading/reference/reference.hpp"
 
@@ -82,9 +82,9 @@ bool lobe_controls(Controls& c, bool has_own_lobes) {
 
 bool highlight_and_shadow_controls(Controls& c) {
     constexpr int kSkyShadows[] = {0, kSkyShadowsAuto, 16, 64, 256};
-    bool changed = choose("specular", c.specular, cli::kSpecularNames);
+    bool changed = choose("specular", c.specular, engine::kSpecularNames);
     changed |= ImGui::Checkbox("normalize highlights", &c.normalize_specular);
-    changed |= choose("shadows", c.shadows, cli::kShadowModeNames);
+    changed |= choose("shadows", c.shadows, engine::kShadowModeNames);
     changed |= choose_number("sky shadows", c.sky_shadows, kSkyShadows, "off", "auto");
     return changed;
 }
@@ -121,7 +121,7 @@ bool each_light(Controls& c) {
 bool picture_controls(Controls& c) {
     constexpr int kSamples[] = {1, 4, 8, 16};
     bool changed = ImGui::SliderFloat("exposure", &c.exposure_ev, -4.0f, 4.0f, "%+.2f EV");
-    changed |= choose("tone curve", c.tone_curve, cli::kToneCurveNames);
+    changed |= choose("tone curve", c.tone_curve, engine::kToneCurveNames);
     changed |= choose_number("samples", c.samples, kSamples, "");
     changed |= ImGui::SliderFloat("error budget", &c.max_error_codes, 0.0f, 4.0f, c.max_error_codes > 0.0f ? "%.2f codes" : "exact");
     return changed;

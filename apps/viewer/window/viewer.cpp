@@ -1,8 +1,8 @@
 // The window's loop: events in, requests to the worker, pictures and panel out. It never waits for a picture.
 #include "apps/viewer/viewer.hpp"
 
-#include "apps/halflit/program/stopwatch.hpp"
-#include "apps/halflit/report/pixel_story_text.hpp"
+#include "apps/engine/answers/pixel_story_text.hpp"
+#include "apps/engine/basics/stopwatch.hpp"
 #include "apps/viewer/frame_worker.hpp"
 #include "apps/viewer/orbit_camera.hpp"
 #include "apps/viewer/window/gui.hpp"
@@ -43,7 +43,7 @@ bool has_own_lobes(const Scene& scene) {
 
 class Viewer {
 public:
-    Viewer(const Sdl& sdl, cli::RenderJob job, const cli::RenderOptions& options, const ViewerOptions& how)
+    Viewer(const Sdl& sdl, engine::RenderJob job, const engine::RenderOptions& options, const ViewerOptions& how)
         : sdl_(sdl),
           how_(how),
           window_(sdl),
@@ -61,7 +61,7 @@ public:
         texts_.exposure = job.settings.exposure;
         placement_ = job.source.placement;
         title_ = "halflit: " + job.source.name;
-        node_name_ = cli::names_of(job.source.parts);
+        node_name_ = engine::names_of(job.source.parts);
         worker_ = std::make_unique<FrameWorker>(std::move(job), options, [this] { wake(); });
     }
 
@@ -93,7 +93,7 @@ private:
 
     void turn_of_loop() {
         wait();
-        const cli::Stopwatch busy;
+        const engine::Stopwatch busy;
         take_result();
         rehearse();
         SDL_Event event;
@@ -128,7 +128,7 @@ private:
             ended_ = true;
         }
         if (frame->story) {
-            texts_.pixel = cli::story_text(*frame->story, node_name_);
+            texts_.pixel = engine::story_text(*frame->story, node_name_);
             texts_.marked = !moved_since_request_;
             texts_.mark_x = frame->story->x, texts_.mark_y = frame->story->y;
             panel_.tab = Tab::pixel;
@@ -331,12 +331,12 @@ private:
     RehearsalMouse mouse_;
     const Uint32 done_event_;
     std::string title_;
-    cli::NameOfInstance node_name_;
+    engine::NameOfInstance node_name_;
     Placement placement_;  ///< where the file's model is drawn
     int picture_width_ = 0, picture_height_ = 0, started_width_ = 0, started_height_ = 0;
     std::unique_ptr<Gui> gui_;
 
-    cli::Stopwatch clock_, since_present_, since_picture_;
+    engine::Stopwatch clock_, since_present_, since_picture_;
     double rate_ = 0;  ///< pictures a second
     double moved_ms_ = 0;
     bool new_picture_ = false, telling_ = false, story_shown_ = false, ended_ = false, last_present_ = false;
@@ -360,7 +360,7 @@ bool has_viewer() { return true; }
 
 std::string missing_libraries() { return ""; }
 
-Result<ViewerSummary> run_viewer(cli::RenderJob job, const cli::RenderOptions& options, const ViewerOptions& how) {
+Result<ViewerSummary> run_viewer(engine::RenderJob job, const engine::RenderOptions& options, const ViewerOptions& how) {
     const auto sdl = load_sdl();
     if (!sdl) return tl::unexpected(sdl.error());
     // Drawn by the processor, as the picture is, unless SDL_RENDER_DRIVER says otherwise. Signals are the program's.

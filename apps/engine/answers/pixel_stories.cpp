@@ -1,0 +1,50 @@
+#include "apps/engine/answers/pixel_stories.hpp"
+
+#include "apps/engine/answers/pixel_story_json.hpp"
+#include "apps/engine/answers/pixel_story_text.hpp"
+#include "halflit/explain.hpp"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace halflit::engine {
+
+Result<PixelStories> tell_pixels(const RenderJob& job, std::span<const PixelPlace> pixels) {
+    for (const auto& [x, y] : pixels)
+        if (x >= job.width || y >= job.height)
+            return fail(ErrorCode::usage,
+                        fmt::format("--pixel: expected a pixel of the {}x{} picture, found {},{}", job.width, job.height, x, y));
+    const NameOfInstance name = names_of(job.source.parts);
+    Renderer renderer;
+    PixelStories stories{report_head("explain"), {}};
+    Json list = Json::array();
+    for (const auto& [x, y] : pixels) {
+        auto told = explain_pixel(renderer, *job.prepared, job.light, job.camera, job.settings, {job.width, job.height}, x, y,
+                                  job.timed_execution());
+        if (!told) return tl::unexpected(told.error());
+        const PixelStory story = in_file(std::move(*told), job.source.placement);
+        list.push_back(story_json(story, name));
+        stories.text += (stories.text.empty() ? "" : "\n") + story_text(story, name);
+    }
+    stories.report["scene"] = job.source.name;
+    stories.report["size"] = {job.width, job.height};
+    stories.report["pixels"] = std::move(list);
+    return stories;
+}
+
+Flag pixel_flag(std::vector<PixelPlace>& pixels) {
+    const auto read_pixel = [&pixels](const std::string& text) -> Result<void> {
+        const auto place = parse_pixel(text);
+        if (!place) return tl::unexpected(place.error());
+        pixels.push_back(*place);
+        return {};
+    };
+    return {.names = "--pixel",
+            .form = "X,Y",
+            .help = "The pixel, from the upper left corner of the picture; may be given several times",
+            .read = read_pixel,
+            .repeated = true};
+}
+
+}  // namespace halflit::engine

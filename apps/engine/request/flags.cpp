@@ -1,0 +1,79 @@
+#include "apps/engine/request/flags.hpp"
+
+#include "apps/engine/basics/spelling.hpp"
+#include "apps/engine/request/values.hpp"
+
+#include <algorithm>
+
+namespace halflit::engine {
+
+ReadValue read_int(int& target, int min, int max) {
+    return [&target, min, max](const std::string& text) -> Result<void> {
+        const auto value = parse_int(text, min, max);
+        if (!value) return tl::unexpected(value.error());
+        target = static_cast<int>(*value);
+        return {};
+    };
+}
+
+std::vector<std::string> words_of(std::string_view text, char separator) {
+    std::vector<std::string> words;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find(separator, start), text.size());
+        words.emplace_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return words;
+}
+
+std::string joined(const std::vector<std::string>& words, std::string_view separator) {
+    std::string text;
+    for (const std::string& word : words) text.append(text.empty() ? "" : separator).append(word);
+    return text;
+}
+
+std::vector<const Flag*> flags_of(const Command& command) {
+    std::vector<const Flag*> flags;
+    for (const FlagGroup& group : command.groups)
+        for (const Flag& flag : group.flags) flags.push_back(&flag);
+    return flags;
+}
+
+Result<void> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words) {
+    const auto find_flag = [&](const std::string& name) -> const Flag* {
+        for (const FlagGroup& group : groups)
+            for (const Flag& flag : group.flags) {
+                const std::vector<std::string> names = words_of(flag.names, ',');
+                if (std::find(names.begin(), names.end(), name) != names.end()) return &flag;
+            }
+        return nullptr;
+    };
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
+        const std::string name = word.substr(0, equals);
+        const Flag* const flag = find_flag(name);
+        if (flag == nullptr) {
+            std::vector<std::string> names;
+            for (const FlagGroup& group : groups)
+                for (const Flag& one : group.flags) names.push_back(one.long_name());
+            return fail(ErrorCode::usage, "unknown flag " + name + did_you_mean(name, names));
+        }
+        const bool takes_value = !flag->form.empty(), assigned = equals != std::string::npos;
+        if (assigned && !takes_value) return fail(ErrorCode::usage, name + ": takes no value");
+        if (takes_value && !assigned && i + 1 == words.size()) return fail(ErrorCode::usage, name + ": expected a value");
+        const std::string value = !takes_value ? "" : assigned ? word.substr(equals + 1) : words[++i];
+        if (const auto read = flag->read(value); !read) return fail(ErrorCode::usage, name + ": " + read.error().message);
+    }
+    return {};
+}
+
+void remove_flags(std::vector<FlagGroup>& groups, std::span<const std::string_view> long_names) {
+    const auto removed = [&](const Flag& flag) {
+        return std::find(long_names.begin(), long_names.end(), flag.long_name()) != long_names.end();
+    };
+    for (FlagGroup& group : groups) std::erase_if(group.flags, removed);
+    std::erase_if(groups, [](const FlagGroup& group) { return group.flags.empty(); });
+}
+
+}  // namespace halflit::engine

@@ -1,0 +1,404 @@
+#include "apps/engine/request/render_options.hpp"
+
+#include "apps/engine/basics/spelling.hpp"
+#include "apps/engine/request/file_flags.hpp"
+#include "apps/engine/request/lobe_model.hpp"
+#include "apps/engine/request/plan_names.hpp"
+#include "apps/engine/request/setting_flags.hpp"
+#include "apps/io/models/formats.hpp"
+#include "halflit/scene.hpp"
+#include "sh/vec3d.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+namespace halflit::engine {
+namespace {
+
+using raster::kOffOn;
+
+using Names = std::span<const std::string_view>;
+
+/// Reads one of the names; the value is the name's index in the list.
+template <class T>
+ReadValue named(T& target, Names names) {
+    return [&target, names](const std::string& text) {
+        return read_value(raster::named(names), text).map([&](double index) { target = static_cast<T>(static_cast<int>(index)); });
+    };
+}
+
+/// "a|b|c", the form of a flag that takes one of these.
+std::string form_of(Names names) { return joined({names.begin(), names.end()}, "|"); }
+
+template <class T>
+std::string_view name_of(T value, Names names) {
+    return names[static_cast<std::size_t>(value)];
+}
+
+template <class Target>
+ReadValue number(Target& target, float min, float max) {
+    return parsed(target, [min, max](const std::string& text) { return parse_float(text, min, max); });
+}
+
+Result<void> read_exposure(RenderOptions& options, const std::string& text) {
+    constexpr std::string_view kAuto = "auto";
+    const bool chosen = text.starts_with(kAuto);
+    const std::string number = chosen ? text.substr(kAuto.size()) : text;
+    const bool is_signed = number.starts_with('+') || number.starts_with('-');
+    const auto ev = chosen && number.empty() ? Result<float>(0.0f) : parse_float(number, -64.0f, 64.0f);
+    if (!ev || number.starts_with("+-") || (chosen && !number.empty() && !is_signed))
+        return fail(ErrorCode::usage, fmt::format("expected a number from -64 to 64, auto, or as auto+1 and auto-0.5, found '{}'", text));
+    options.exposure = chosen ? std::optional<float>() : exposure_factor(*ev);
+    options.exposure_compensation_ev = chosen ? *ev : 0.0f;
+    return {};
+}
+
+Result<void> read_background(RenderOptions& options, const std::string& text) {
+    options.settings.background_environment = text == "environment";
+    options.background_linear.reset();
+    if (options.settings.background_environment || text == "auto") return {};
+    return assign(options.background_linear, parse_color(text));
+}
+
+FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
+    Settings& s = o.settings;
+    return {
+        "Picture",
+        {{"--size", "WxH",
+          fmt::format("Size in pixels (default {}x{}, reduced to the aspect ratio of the file's camera)", usual.width, usual.height),
+          parsed(o.size, parse_size)},
+         {"--region", "X,Y,W,H", "Draw and write only this part of the picture", parsed(s.region, parse_region)},
+         {"--background", "auto|COLOR|environment",
+          "transparent, #rgb, #rrggbb, #rrggbbaa or a name; auto: dark grey, behind dark surfaces light grey (default); environment: the "
+          "image of --env",
+          [&o](const std::string& text) { return read_background(o, text); }},
+         {"--exposure", "EV|auto[+EV]",
+          "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default); auto+1, auto-0.5: stops brighter",
+          [&o](const std::string& text) { return read_exposure(o, text); }}}};
+}
+
+/// A flag of the view of the whole scene. Sets `given`.
+Flag view_flag(bool& given, const char* name, const char* form, const char* help, float& target, float min, float max) {
+    return {name, form, fmt::format("{} (default {})", help, target), [&given, read = number(target, min, max)](const std::string& text) {
+                given = true;
+                return read(text);
+            }};
+}
+
+Result<void> read_camera(RenderOptions& o, const std::string& text) {
+    if (text == "frame")
+        o.whole_scene = true;
+    else
+        o.camera = text;
+    return {};
+}
+
+/// Other programs write "+Z" or "Z" for "z".
+std::string plain_axis(std::string text) {
+    if (text.starts_with('+')) text.erase(0, 1);
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+FlagGroup camera_flags(RenderOptions& o) {
+    return {
+        "Camera (default: the file's first camera, or a view of the whole scene)",
+        {{"--camera", "INDEX|NAME|frame|all",
+          "A camera of the file (default: the first); frame: a view of the whole scene; all: a picture by each camera of --camera-file, as "
+          "-o '{view}.png'",
+          [&o](const std::string& text) { return read_camera(o, text); }},
+         view_flag(o.whole_scene, "--azimuth", "DEG", "View the whole scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg,
+                   -3600, 3600),
+         view_flag(o.whole_scene, "--elevation", "DEG", "View it from this angle above the horizon, -90 to 90", o.view.elevation_deg, -90,
+                   90),
+         view_flag(o.whole_scene, "--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f),
+         view_flag(o.fov_given, "--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170),
+         {"--view", "front|back|left|right|top|bottom|iso|AZ,EL",
+          "View the whole scene from this side, or from the azimuth AZ and the elevation EL. All sides have one distance and one scale. "
+          "Several, with commas or repeated: a picture of each, as -o '{view}.png'",
+          [&o](const std::string& text) -> Result<void> {
+              const auto views = parse_views(text);
+              if (!views) return tl::unexpected(views.error());
+              o.film.views.insert(o.film.views.end(), views->begin(), views->end());
+              o.whole_scene = true;
+              return {};
+          },
+          true},
+         {"--fit", "PIXELS", "Fit the view, or the largest of several, into the picture, with this margin",
+          [&o](const std::string& text) {
+              o.whole_scene = true;
+              return assign(o.fit_px, parse_int(text, 0, 1 << 20).map([](std::int64_t n) {
+                  return std::optional(PictureSize{static_cast<int>(n), static_cast<int>(n)});
+              }));
+          }},
+         {"--ortho,--orthographic", "", "View the whole scene by parallel rays, without perspective",
+          [&o](const std::string&) -> Result<void> {
+              o.whole_scene = o.view.orthographic = true;
+              return {};
+          }},
+         {"--camera-position", "X,Y,Z", "Place the camera here", parsed(o.camera_position, parse_point)},
+         {"--camera-orbit", "THETA PHI RADIUS",
+          "Place the camera around its target, as <model-viewer> does: degrees (or rad) about the vertical from +z, degrees from straight "
+          "above, and a distance in the file's unit (or cm, mm: hundredths and thousandths of it), in % of the one that shows all sides, "
+          "or "
+          "auto for that one",
+          parsed(o.camera_orbit, parse_camera_orbit)},
+         {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
+          parsed(o.camera_target, parse_point)},
+         {"--camera-file", "FILE",
+          "Cameras in place of the model's: JSON as a report's `camera`, a report of look or render, transforms.json of NeRF, COLMAP's "
+          "images.txt, or a glTF file. They are in the coordinates and along the axes of the model's file",
+          read_text(o.camera_file)},
+         {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
+         {"--up", form_of(kUpAxisNames),
+          fmt::format(
+              "Axis of the model that points up (default {}, and z for STL and 3MF): views, the ground and the light from above go by "
+              "it. All coordinates are the file's",
+              name_of(UpAxis::y, kUpAxisNames)),
+          [&o](const std::string& text) {
+              UpAxis up{};
+              const auto read = named(up, kUpAxisNames)(plain_axis(text));
+              if (read) o.load.up = up;
+              return read;
+          }}}};
+}
+
+FlagGroup pose_flags(RenderOptions& o) {
+    return {
+        "Pose",
+        {{"--animation", "NAME|INDEX|none", "Animation of the file that poses the scene (default: the first); none: the pose of the nodes",
+          [&o](const std::string& text) -> Result<void> {
+              if (text.empty()) return fail(ErrorCode::usage, "expected a name, an index or none, found ''");
+              o.load.animation = text;
+              return {};
+          }},
+         {"--scene", "INDEX|NAME", "Scene of the file (default: the one that the file names, or the first)",
+          [&o](const std::string& text) -> Result<void> {
+              if (text.empty()) return fail(ErrorCode::usage, "expected a name or an index, found ''");
+              o.load.scene = text;
+              return {};
+          }},
+         {"--plate", "N", "Plate of a slicer's project (3MF), from 1 (default 1); 0: all of them",
+          parsed(o.load.plate,
+                 [](const std::string& text) { return parse_int(text, 0, 255).map([](std::int64_t n) { return static_cast<int>(n); }); })},
+         {"--variant", "NAME", "Variant of the file's materials (default: the materials without a variant)",
+          [&o](const std::string& text) -> Result<void> {
+              if (text.empty()) return fail(ErrorCode::usage, "expected a name, found ''");
+              o.load.variant = text;
+              return {};
+          }},
+         {"--time", "SECONDS", "Time in the animation (default 0); before its first key and after its last one, these are drawn",
+          [&o](const std::string& text) {
+              o.film.time_held = true;
+              return assign(o.load.time_s, parse_time(text));
+          }}}};
+}
+
+FlagGroup part_flags(RenderOptions& o) {
+    PartFlags& parts = o.parts;
+    const auto flag = [](const char* name, const char* help, std::vector<std::string>& target) {
+        return Flag{.names = name, .form = "PART", .help = help, .read = append_to(target), .repeated = true};
+    };
+    return {
+        "Parts: what one node of the file places",
+        {flag("--only",
+              "Draw only this part, and view it: a name, a number from the list of halflit info, or a pattern with * and ?; several with "
+              "commas or repeated. The name of a node with parts below it stands for these",
+              parts.only),
+         flag("--hide", "Leave this part out", parts.hide),
+         flag("--ghost", "Draw this part translucent and pale, so that what lies inside is seen. It casts no shadow", parts.ghost),
+         flag("--highlight", "Draw this part in one bright colour, and the other parts that are not ghosts in grey", parts.highlight),
+         {"--highlight-color", "COLOR", "Colour of --highlight: #rgb, #rrggbb or a name (default #ff8400, orange)",
+          [&parts](const std::string& text) {
+              return assign(parts.highlight_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
+          }}}};
+}
+
+FlagGroup section_flags(RenderOptions& o) {
+    return {
+        "Section",
+        {{.names = "--section",
+          .form = "AXIS=POS|A,B,C,D",
+          .help = "Cut the scene: x=0.5 keeps what is below 0.5 on the x axis, -x=0.5 what is above, x=50% is the middle of the scene, "
+                  "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as in the measures of `info`. Closed objects get caps, "
+                  "whose areas go into the report",
+          .read = [&o](const std::string& text) -> Result<void> {
+              auto section = parse_section(text);
+              if (!section) return tl::unexpected(section.error());
+              o.sections.push_back(std::move(*section));
+              return {};
+          },
+          .repeated = true},
+         {"--section-hatch", form_of(kOffOn), fmt::format("Draw lines on the caps (default {})", name_of(o.hatch, kOffOn)),
+          named(o.hatch, kOffOn)},
+         {"--section-spacing", "N", "Distance between these lines, in the scene's units (default: a fortieth of the scene's diagonal)",
+          number(o.hatch_spacing, 0.0f, std::numeric_limits<float>::max())}}};
+}
+
+Result<void> read_light(std::vector<GivenLight>& lights, const std::string& text) {
+    const auto light = parse_light(text);
+    if (!light) return tl::unexpected(light.error());
+    lights.push_back(*light);
+    return {};
+}
+
+Result<void> read_ambient(std::optional<Vec3f>& ambient, const std::string& text) {
+    const auto rgb = parse_point(text);
+    if (!rgb) return tl::unexpected(rgb.error());
+    if (rgb->x < 0 || rgb->y < 0 || rgb->z < 0) return fail(ErrorCode::usage, "expected numbers from 0, found '" + text + "'");
+    ambient = to_float(*rgb);
+    return {};
+}
+
+FlagGroup light_flags(RenderOptions& o) {
+    return {
+        "Light",
+        {{.names = "--light",
+          .form = "TYPE:KEY=VALUE:...",
+          .help = "Add a light, as directional:dir=-1,-2,-1:color=#fff:intensity=1; also point (pos, range, radius) and spot (pos, dir, "
+                  "cone=IN,OUT, power); size makes shadows soft",
+          .read = [&o](const std::string& text) { return read_light(o.lights, text); },
+          .repeated = true},
+         {"--no-scene-lights", "", "Leave out the scene's own lights and ambient light", set_to(o.scene_lights, false)},
+         {"--ambient", "R,G,B", "Ambient light: the same from all directions, linear RGB",
+          [&o](const std::string& text) { return read_ambient(o.ambient_linear, text); }}}};
+}
+
+FlagGroup environment_flags(RenderOptions& o) {
+    return {"Environment",
+            {{"--env", "FILE|sky|studio|none",
+              "Environment, an image of light from all directions: a picture of floats (.hdr .exr .pfm), or the built-in sky or studio "
+              "(default: the studio where the scene has no light; with none, such a scene gets light from above and below)",
+              [&o](const std::string& text) -> Result<void> {
+                  o.studio = text == "studio" ? StudioUse::always : text == "none" ? StudioUse::never : StudioUse::for_dark;
+                  o.environment = text == "studio" || text == "none" ? "" : text;
+                  return {};
+              }},
+             {"--env-rotate", "DEG", "Turn the environment about the vertical, counter-clockwise seen from above",
+              number(o.environment_rotate_deg, -3600.0f, 3600.0f)},
+             {"--env-sun", form_of(kOffOn),
+              fmt::format("Replace suns in the environment by directional lights (default {})", name_of(o.environment_sun, kOffOn)),
+              named(o.environment_sun, kOffOn)}}};
+}
+
+FlagGroup shadow_flags(RenderOptions& o) {
+    return {"Shadows",
+            {{"--sun-size", "DEG",
+              "Soft shadows: angle from the middle to the rim of directional lights, the studio's too, 0 to 40 (default 0; the sun: 0.27)",
+              number(o.sun_size_deg, 0.0f, 40.0f)},
+             {"--lamp-size", "R", "Soft shadows: radius of point and spot lights, in the scene's units (default 0)",
+              number(o.lamp_size, 0.0f, 1e9f)}}};
+}
+
+FlagGroup surface_flags(RenderOptions& o) {
+    return {
+        "Surface",
+        {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe, reflected light over the angle to the light (default lambert)",
+          [&o](const std::string& text) -> Result<void> {
+              o.lobe_name = text;
+              return {};
+          }},
+         {"--wrap", "W", fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", kMaxLobeWrap),
+          number(o.lobe.wrap, 0.0f, kMaxLobeWrap)},
+         {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)},
+         {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
+          [&o](const std::string&) -> Result<void> {
+              o.lobe.normalize = true;
+              return {};
+          }},
+         {"--own-lobes", form_of(kOffOn),
+          fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power count for all",
+                      name_of(o.own_lobes, kOffOn)),
+          named(o.own_lobes, kOffOn)},
+         {"--kd", "X", "Diffuse factor of all lit materials, 0 to 1, times their base colour", number(o.classic.diffuse, 0.0f, 1.0f)},
+         {"--ks", "X",
+          "Specular factor of all lit materials, 0 to 1: the light mirrored straight on (default 0.04). What is mirrored is not diffuse: "
+          "--kd counts 1 - X times",
+          number(o.classic.specular, 0.0f, 1.0f)},
+         {"--shininess", "S",
+          fmt::format("Exponent of Blinn's highlight for all lit materials, 0 to {}, instead of their roughness; Phong's is S / 4. Each of "
+                      "--kd, --ks and --shininess makes all materials non-metallic",
+                      kMaxShininess),
+          number(o.classic.exponent, 0.0f, kMaxShininess)},
+         {"--crease", "DEG",
+          fmt::format("Models without normals that are not glTF: smooth across edges up to this angle between their triangles, 0 to 180, "
+                      "in noisy scans up to twice as much "
+                      "(default {})",
+                      o.load.crease_deg),
+          number(o.load.crease_deg, 0.0f, 180.0f)}}};
+}
+
+Result<void> read_isa(std::optional<Isa>& target, const std::string& text) {
+    const auto isa = isa_by_name(text);
+    constexpr std::string_view kPlace = "isa: ";  // the flag's own name says it already
+    if (!isa) return fail(ErrorCode::usage, isa.error().message.substr(isa.error().message.starts_with(kPlace) ? kPlace.size() : 0));
+    target = *isa;
+    return {};
+}
+
+FlagGroup machine_flags(Execution& e) {
+    return {
+        "Speed (never changes a pixel)",
+        {{"--isa", "NAME", "Instruction set: auto, " + isa_names(), [&e](const std::string& text) { return read_isa(e.isa, text); }},
+         {"--threads", "N", "Number of threads, 0 for one per core (default)", read_int(e.threads, 0, 1024)},
+         {"--tile", "N", fmt::format("Side of a tile in pixels: 16, 32 or 64 (default {})", e.tile_size), [&e](const std::string& text) {
+              static constexpr int kTileSizes[] = {16, 32, 64};
+              return read_value(raster::one_of(kTileSizes), text).map([&](double side) { e.tile_size = static_cast<int>(side); });
+          }}}};
+}
+
+}  // namespace
+
+Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
+    if (o.lobe_name) {
+        auto lobe = io::lobe_from_name(*o.lobe_name, o.lobe);
+        if (!lobe)  // the message begins with the parameter's name, which is the flag's
+            return fail(ErrorCode::usage, "--" + lobe.error().message + did_you_mean_lobe(*o.lobe_name));
+        return *lobe;
+    }
+    if (o.lobe.wrap || o.lobe.power) return Lobe{o.lobe.wrap.value_or(0.0f), o.lobe.power.value_or(1.0f), o.lobe.normalize.has_value()};
+    if (o.lobe.normalize) return fail(ErrorCode::usage, "--normalize: expected together with --lobe, --wrap or --power");
+    return std::nullopt;
+}
+
+Positional scene_argument(RenderOptions& o, bool required) {
+    return {
+        .name = "SCENE",
+        .help = fmt::format("A {} file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), lights:N (N point lights)",
+                            io::detail::list_of_formats(&io::detail::FormatRow::extension)),
+        .read = read_text(o.scene),
+        .required = required,
+        .form = "FILE"};
+}
+
+namespace {
+
+FlagGroup line_flags(RenderOptions& o) {
+    return {"Lines",
+            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)", [&o](const std::string& text) {
+                  return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
+              }}}};
+}
+
+}  // namespace
+
+std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
+    std::vector<FlagGroup> groups{picture_flags(o, usual), camera_flags(o), pose_flags(o),        part_flags(o),
+                                  section_flags(o),        light_flags(o),  environment_flags(o), shadow_flags(o),
+                                  surface_flags(o),        line_flags(o),   {"Accuracy", {}},     machine_flags(o.execution),
+                                  untrusted_file_flags(o)};
+    for (FlagGroup& group : groups) add_setting_flags(group, o.settings, o.given_settings);
+    return groups;
+}
+
+Result<RenderOptions> parse_render_flags(std::span<const std::string> words) {
+    RenderOptions options;
+    if (const auto read = read_flags(render_flags(options, kRenderSize), words); !read) return tl::unexpected(read.error());
+    return options;
+}
+
+}  // namespace halflit::engine
