@@ -33,6 +33,16 @@ Result<PixelStories> tell_pixels(const RenderJob& job, std::span<const PixelPlac
     return stories;
 }
 
+Result<PixelStories> explain(RenderOptions options, std::span<const PixelPlace> pixels) {
+    if (pixels.empty()) return fail(ErrorCode::usage, "--pixel: expected X,Y");
+    options.may_want_reference = true;  // for the error
+    const auto job = make_render_job(options, kRenderSize);
+    if (!job) return tl::unexpected(job.error());
+    auto stories = tell_pixels(*job, pixels);
+    if (stories) stories->warnings = job->warnings, stories->choices = job->choices;
+    return stories;
+}
+
 Flag pixel_flag(std::vector<PixelPlace>& pixels) {
     const auto read_pixel = [&pixels](const std::string& text) -> Result<void> {
         const auto place = parse_pixel(text);

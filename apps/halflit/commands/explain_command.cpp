@@ -17,16 +17,12 @@ struct ExplainOptions : RenderOptions {
     bool json = false;
 };
 
-Result<int> run_explain(ExplainOptions options) {
-    if (options.pixels.empty()) return fail(ErrorCode::usage, "explain: expected --pixel X,Y");
+Result<int> run_explain(const ExplainOptions& options) {
     if (options.max_memory_bytes == 0) platform::prepare_heap();
-    options.may_want_reference = true;  // for the error
-    const auto job = make_render_job(options, kRenderSize);
-    if (!job) return tl::unexpected(job.error());
-    for (const std::string& warning : job->warnings) print_warning(warning);
-    for (const std::string& choice : job->choices) print_detail(choice);
-    const auto stories = tell_pixels(*job, options.pixels);
+    const auto stories = explain(options, options.pixels);
     if (!stories) return tl::unexpected(stories.error());
+    for (const std::string& warning : stories->warnings) print_warning(warning);
+    for (const std::string& choice : stories->choices) print_detail(choice);
     if (const auto written = write_text("-", options.json ? to_text(stories->report) : stories->text); !written)
         return tl::unexpected(written.error());
     return 0;

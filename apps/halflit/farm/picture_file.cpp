@@ -4,6 +4,7 @@
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/basics/file_names.hpp"
 #include "apps/engine/basics/stopwatch.hpp"
+#include "apps/engine/job/picture_judgement.hpp"
 #include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/progress_line.hpp"
@@ -41,19 +42,6 @@ Result<RenderReport> draw(RenderJob& job, Image& image, AovPlanes& planes, bool 
     Target target = target_of(job, image);
     planes.add_to(target);
     return Renderer().render(*job.prepared, job.light, job.camera, job.settings, target, job.timed_execution());
-}
-
-/// No fragment was drawn, or all pixels have the same colour, within two codes: the background's.
-bool is_blank(const Image& image, const RenderReport& rendered) {
-    if (rendered.fragments_shaded == 0) return true;
-    std::array<int, 4> least{255, 255, 255, 255}, most{};
-    for (std::size_t i = 0; i < image.rgba8.size(); ++i) {
-        least[i % 4] = std::min(least[i % 4], int{image.rgba8[i]});
-        most[i % 4] = std::max(most[i % 4], int{image.rgba8[i]});
-    }
-    for (std::size_t c = 0; c < 4; ++c)
-        if (most[c] - least[c] > 2) return false;
-    return true;
 }
 
 void print_choices(const RenderJob& job, const RenderReport& rendered, double encode_ms) {
@@ -111,13 +99,7 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     picture.place = options.place;
     picture.blank = options.blank_check && is_blank(image, *rendered);
     if (picture.blank) job->warnings.push_back(job->source.name + ": nothing is seen in its picture");
-    if (const ErrorBound& error = rendered->error; error.budget > 0.0 && !error.within)
-        job->warnings.push_back(
-            error.codes < 255.0
-                ? fmt::format(
-                      "--max-error {:.6g}: not kept; the exact picture is drawn, whose bound is {:.2f} codes; the report has its parts",
-                      error.budget, error.codes)
-                : fmt::format("--max-error {:.6g}: not kept; the exact picture is drawn, of which no bound is known", error.budget));
+    warn_of_budget(*job, rendered->error);
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) {
             const bool says_which = !one_of_many || warning.starts_with(job->source.name);

@@ -3,9 +3,9 @@
 #include "apps/engine/basics/base64.hpp"
 #include "apps/engine/basics/spelling.hpp"
 #include "apps/engine/basics/timeout.hpp"
+#include "apps/engine/calls/answer_limits.hpp"
+#include "apps/engine/calls/kept_scenes.hpp"
 #include "apps/halflit/farm/picture_file.hpp"
-#include "apps/halflit/mcp/answer_limits.hpp"
-#include "apps/halflit/mcp/kept_scenes.hpp"
 #include "apps/halflit/mcp/message_queue.hpp"
 #include "apps/halflit/mcp/session.hpp"
 #include "apps/halflit/mcp/tool.hpp"
@@ -55,18 +55,18 @@ public:
         : options_(options), folder_(std::move(folder)), queue_(queue) {}
 
     [[nodiscard]] Json list() const override {
-        Json tools = Json::array();
-        for (const Tool& tool : all_tools()) tools.push_back(tool_json(tool));
-        return tools;
+        Json list = Json::array();
+        for (const Tool& tool : tools()) list.push_back(tool_json(tool));
+        return list;
     }
     [[nodiscard]] std::optional<std::string> unknown(const std::string& name) const override {
         std::vector<std::string> names;
-        for (const Tool& tool : all_tools()) names.push_back(tool.name);
+        for (const Tool& tool : tools()) names.push_back(tool.row->tool);
         return std::find(names.begin(), names.end(), name) != names.end() ? std::nullopt : std::optional(did_you_mean(name, names));
     }
     [[nodiscard]] std::optional<Json> call(const nlohmann::json& id, const std::string& name, const nlohmann::json& arguments) override {
-        const auto tools = all_tools();
-        const Tool& tool = *std::find_if(tools.begin(), tools.end(), [&](const Tool& one) { return one.name == name; });
+        const auto all = tools();
+        const Tool& tool = *std::find_if(all.begin(), all.end(), [&](const Tool& one) { return one.row->tool == name; });
         queue_.begin_call(id);
         Json result;
         try {
@@ -85,8 +85,21 @@ public:
 
 private:
     Result<ToolAnswer> run(const Tool& tool, const nlohmann::json& arguments) {
-        const ToolCall call = tool.make();
-        if (const auto read = read_arguments(tool, call, arguments, folder_); !read) return tl::unexpected(read.error());
+        const Call call = tool.row->make();
+        std::string output;
+        nlohmann::json of_call = arguments;
+        if (const auto given = of_call.find("output"); given != of_call.end() && tool.writes) {
+            if (!given->is_string()) return fail(ErrorCode::usage, "output: expected the name of a file");
+            auto path = folder_.to_write(given->get<std::string>());
+            if (!path) return fail(path.error().code, "output: " + path.error().message);
+            output = std::move(*path);
+            of_call.erase("output");
+        }
+        const auto format = format_of_output(output);
+        if (!format) return tl::unexpected(format.error());
+        if (const auto read = read_arguments(*tool.row, call, of_call, [&](const std::string& path) { return folder_.to_read(path); });
+            !read)
+            return tl::unexpected(read.error());
         for (RenderOptions* const scene : call.scenes) {
             scene->keeper = &kept_;
             scene->timeout_s = scene->timeout_s > 0.0 ? std::min(scene->timeout_s, options_.timeout_s) : options_.timeout_s;
@@ -94,7 +107,14 @@ private:
             scene->execution.cancelled = [this] { return queue_.cancelled(); };
         }
         io::begin_file_set();
-        return within_memory(*call.scenes.front(), [&] { return within_time(options_.timeout_s, call.run); });
+        return within_memory(*call.scenes.front(), [&]() -> Result<ToolAnswer> {
+            auto answer = within_time(options_.timeout_s, call.run);
+            if (!answer) return tl::unexpected(answer.error());
+            for (const char* model : {"path", "a", "b"})
+                if (const auto given = arguments.find(model); given != arguments.end() && given->is_string())
+                    if (const auto path = folder_.to_read(given->get<std::string>())) answer->inputs.push_back(*path);
+            return tool_answer(std::move(*answer), output, *format);
+        });
     }
 
     const McpOptions& options_;
@@ -107,7 +127,7 @@ private:
 
 std::vector<NamedHelp> tool_helps() {
     std::vector<NamedHelp> helps;
-    for (const Tool& tool : all_tools()) helps.push_back({tool.name, tool.help});
+    for (const Tool& tool : tools()) helps.push_back({tool.row->tool, tool.row->help});
     return helps;
 }
 

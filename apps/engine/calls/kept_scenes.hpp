@@ -2,7 +2,6 @@
 #pragma once
 
 #include "apps/engine/job/scene_source.hpp"
-#include "apps/halflit/program/engine.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace halflit::cli {
+namespace halflit::engine {
 
 /// Keeps the last scenes that were asked for. A scene is loaded anew if its file, or a file that it refers to, has another size or another
 /// time of change, or if options of loading differ.
@@ -41,4 +40,4 @@ private:
     std::list<Kept> kept_;  ///< the one that was used last comes first
 };
 
-}  // namespace halflit::cli
+}  // namespace halflit::engine

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "apps/engine/answers/run_report.hpp"
-#include "apps/halflit/program/engine.hpp"
 
 #include <cstddef>
 #include <string>
 
-namespace halflit::cli {
+namespace halflit::engine {
 
 inline constexpr std::size_t kMostAnsweredBytes = 60'000;  ///< of a report as JSON without spaces
 inline constexpr std::size_t kMostNotesBytes = 20'000;     ///< of the lines before it
@@ -20,4 +19,4 @@ inline constexpr std::size_t kMostNotesBytes = 20'000;     ///< of the lines bef
 /// The first lines that have at most so many bytes. A last line says how many are left out.
 [[nodiscard]] std::string bounded_lines(std::string lines, std::size_t most_bytes = kMostNotesBytes);
 
-}  // namespace halflit::cli
+}  // namespace halflit::engine

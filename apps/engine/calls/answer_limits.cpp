@@ -1,4 +1,4 @@
-#include "apps/halflit/mcp/answer_limits.hpp"
+#include "apps/engine/calls/answer_limits.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace halflit::cli {
+namespace halflit::engine {
 namespace {
 
 constexpr std::size_t kMostNumbers = 16;      // of a list that stays whole: a matrix
@@ -97,4 +97,4 @@ std::string bounded_lines(std::string lines, std::size_t most_bytes) {
     return begin < lines.size() ? fmt::format("{}({} more lines are left out)\n", kept, left) : kept;
 }
 
-}  // namespace halflit::cli
+}  // namespace halflit::engine

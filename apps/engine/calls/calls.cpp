@@ -3,11 +3,10 @@
 #include "apps/engine/answers/pixel_stories.hpp"
 #include "apps/engine/answers/scene_description.hpp"
 #include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/calls/call.hpp"
 #include "apps/engine/compare/compare_files.hpp"
+#include "apps/engine/job/picture_judgement.hpp"
 #include "apps/engine/look/look.hpp"
-#include "apps/halflit/farm/picture_file.hpp"
-#include "apps/halflit/mcp/tool.hpp"
-#include "apps/io/files/atomic_file.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>
@@ -16,54 +15,26 @@
 #include <iterator>
 #include <utility>
 
-namespace halflit::cli {
+namespace halflit::engine {
 namespace {
 
 /// Flags that only a command line has: the process's memory, its messages, and folders outside of the root.
-constexpr std::string_view kNotOfTools[] = {"--max-memory", "--allow-external", "--verbose", "--quiet"};
+constexpr std::string_view kOfProcesses[] = {"--max-memory", "--allow-external", "--verbose", "--quiet"};
 
 Flag path_flag(std::string& scene) {
-    return {"--path", kModelForm, "The model: a file below the server's folder; a built-in scene: demo, sphere:N", cli::read_text(scene)};
+    return {"--path", kModelForm, "The model: a file below the server's folder; a built-in scene: demo, sphere:N",
+            engine::read_text(scene)};
 }
 
-Flag output_flag(std::string& output) {
-    return {"--output", kPictureForm, "Also write the picture: a .png, .jpg or .webp file below the server's folder",
-            cli::read_text(output)};
-}
-
-Result<std::string> mime_type_of(OutputFormat format) {
-    if (format == OutputFormat::png) return std::string("image/png");
-    if (format == OutputFormat::jpg) return std::string("image/jpeg");
-    if (format == OutputFormat::webp) return std::string("image/webp");
-    return fail(ErrorCode::usage, "output: expected a .png, .jpg or .webp file");
-}
-
-/// Encodes the picture of an answer. output: a file that is written too; empty: none. inputs: files that it must not replace.
-Result<ToolPicture> finish_picture(const Image& image, const std::string& output, const std::string& scene,
-                                   const std::vector<std::string>& inputs) {
-    const auto format = output.empty() ? Result<OutputFormat>(OutputFormat::png) : output_format_of(output);
-    if (!format) return tl::unexpected(format.error());
-    auto mime_type = mime_type_of(*format);
-    if (!mime_type) return tl::unexpected(mime_type.error());
-    auto bytes = encode_image(image, *format);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (!output.empty()) {
-        if (same_file(output, scene) ||
-            std::any_of(inputs.begin(), inputs.end(), [&](const auto& input) { return same_file(output, input); }))
-            return fail(ErrorCode::io, output + ": the scene needs it, and it is not overwritten");
-        if (const auto written = io::write_file(output, *bytes); !written) return tl::unexpected(written.error());
-    }
-    return ToolPicture{std::move(*bytes), std::move(*mime_type)};
-}
-
-std::vector<FlagGroup> tool_flags(std::vector<Flag> own, std::vector<FlagGroup> of_command) {
-    remove_flags(of_command, kNotOfTools);
-    of_command.insert(of_command.begin(), {"Tool", std::move(own)});
+std::vector<FlagGroup> call_flags(std::vector<Flag> own, std::vector<FlagGroup> of_command) {
+    remove_flags(of_command, kOfProcesses);
+    of_command.insert(of_command.begin(), {"Call", std::move(own)});
     return of_command;
 }
 
+constexpr int kCertifiedPixels = 1;  // a triangle counts as seen by one pixel
+
 struct LookCall : LookOptions {
-    std::string output;
     std::vector<PixelPlace> pixels;
     std::string view_of_pixel;
 };
@@ -117,23 +88,46 @@ std::string section_note(const LookCall& call, const Json& cut) {
                        cut["closed"] == true ? "" : "; WARNING: its outline is open, so the area is not reliable");
 }
 
-Result<ToolAnswer> run_look_tool(const LookCall& call) {
+Result<Answer> run_look(const LookCall& call) {
     auto result = look(call);
     if (!result) return tl::unexpected(result.error());
-    auto picture = finish_picture(*result->sheet, call.output, call.scene, result->inputs);
-    if (!picture) return tl::unexpected(picture.error());
-    ToolAnswer answer{notes_of(*result), std::move(result->report), std::move(*picture)};
+    Answer answer{notes_of(*result), std::move(result->report), std::move(result->sheet), std::move(result->inputs), result->good};
     if (const auto sections = answer.report.find("sections"); sections != answer.report.end())
         for (const Json& cut : *sections) answer.notes.push_back(section_note(call, cut));
     return answer;
 }
 
-ToolCall look_call() {
+Call look_call() {
     const auto o = std::make_shared<LookCall>();
-    return {tool_flags({path_flag(o->scene), output_flag(o->output)}, look_flags(*o)), {o.get()}, [o] { return run_look_tool(*o); }};
+    return {call_flags({path_flag(o->scene)}, look_flags(*o)), {o.get()}, [o] { return run_look(*o); }};
 }
 
-Result<ToolAnswer> run_explain_tool(LookCall call) {
+Call certify_call() {
+    const auto o = std::make_shared<LookCall>();
+    o->certify = kCertifiedPixels;
+    o->sheet = false;
+    return {call_flags({path_flag(o->scene)}, look_flags(*o)), {o.get()}, [o] { return run_look(*o); }};
+}
+
+struct ExplainCall : RenderOptions {
+    std::vector<PixelPlace> pixels;
+};
+
+Result<Answer> run_explain(const ExplainCall& call) {
+    auto stories = explain(call, call.pixels);
+    if (!stories) return tl::unexpected(stories.error());
+    return Answer{{std::move(stories->text)}, std::move(stories->report)};
+}
+
+Call explain_call() {
+    const auto o = std::make_shared<ExplainCall>();
+    auto groups = call_flags({path_flag(o->scene), pixel_flag(o->pixels)}, render_flags(*o, kRenderSize));
+    constexpr std::string_view kLeftOut[] = {"--region"};
+    remove_flags(groups, kLeftOut);
+    return {std::move(groups), {o.get()}, [o] { return run_explain(*o); }};
+}
+
+Result<Answer> run_explain_view(LookCall call) {
     call.may_want_reference = true;  // for the error
     auto job = look_job(call);
     if (!job) return tl::unexpected(job.error());
@@ -150,80 +144,75 @@ Result<ToolAnswer> run_explain_tool(LookCall call) {
     (void)relight(*job, job->camera);
     auto stories = tell_pixels(*job, call.pixels);
     if (!stories) return tl::unexpected(stories.error());
-    return ToolAnswer{{std::move(stories->text)}, std::move(stories->report)};
+    return Answer{{std::move(stories->text)}, std::move(stories->report)};
 }
 
-ToolCall explain_call() {
+Call explain_view_call() {
     const auto o = std::make_shared<LookCall>();
-    const Flag of{"--of", "VIEW", "The view that has the pixels, one of `view` (default: the first)", cli::read_text(o->view_of_pixel)};
-    return {tool_flags({path_flag(o->scene), pixel_flag(o->pixels), of}, look_flags(*o)), {o.get()}, [o] { return run_explain_tool(*o); }};
+    const Flag of{"--of", "VIEW", "The view that has the pixels, one of `view` (default: the first)", engine::read_text(o->view_of_pixel)};
+    return {call_flags({path_flag(o->scene), pixel_flag(o->pixels), of}, look_flags(*o)), {o.get()}, [o] { return run_explain_view(*o); }};
 }
 
-Result<ToolAnswer> run_render_tool(PictureOptions options) {
+Result<Answer> run_render(const RenderOptions& options) {
     if (options.film.several_views()) return fail(ErrorCode::usage, "view: expected one view; look draws several");
-    const auto format = options.output.empty() ? Result<OutputFormat>(OutputFormat::png) : output_format_of(options.output);
-    if (!format) return tl::unexpected(format.error());
-    auto mime_type = mime_type_of(*format);
-    if (!mime_type) return tl::unexpected(mime_type.error());
-    const bool writes = !options.output.empty();
-    if (!writes) options.output = "-";
-    options.blank_check = true;
-    auto drawn = draw_picture(options, true);
-    if (!drawn) return tl::unexpected(drawn.error());
-    if (writes)
-        if (const auto written = write_picture(*drawn); !written) return tl::unexpected(written.error());
-    ToolAnswer answer{{}, Json::parse(drawn->report), {std::move(drawn->bytes), std::move(*mime_type)}};
-    answer.notes.emplace_back(drawn->blank ? "FAULT: blank: nothing is seen in the picture" : "No faults: the picture shows the model.");
+    auto job = make_render_job(options, kRenderSize);
+    if (!job) return tl::unexpected(job.error());
+    Image image = make_image(*job, false);
+    const auto rendered =
+        Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->timed_execution());
+    if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
+    const bool blank = is_blank(image, *rendered);
+    warn_of_budget(*job, rendered->error);
+    Answer answer;
+    answer.report = report_head("report");
+    answer.report["scene"] = job->source.name;
+    add_frame(answer.report, *job, *rendered, image);
+    if (blank) answer.report["blank"] = true;
+    answer.notes.emplace_back(blank ? "FAULT: blank: nothing is seen in the picture" : "No faults: the picture shows the model.");
+    answer.picture = std::move(image);
+    if (job->source.file) answer.inputs = job->source.file->files;
+    answer.good = !blank;
     return answer;
 }
 
-ToolCall render_call() {
-    const auto o = std::make_shared<PictureOptions>();
-    return {tool_flags({path_flag(o->scene), output_flag(o->output)}, render_flags(*o, kRenderSize)), {o.get()}, [o] {
-                return run_render_tool(*o);
-            }};
+Call render_call() {
+    const auto o = std::make_shared<RenderOptions>();
+    return {call_flags({path_flag(o->scene)}, render_flags(*o, kRenderSize)), {o.get()}, [o] { return run_render(*o); }};
 }
 
-struct CompareCall : CompareOptions {
-    std::string output;
-};
-
-Result<ToolAnswer> run_compare_tool(const CompareCall& call) {
+Result<Answer> run_compare(const CompareOptions& call) {
     const auto comparison = compare_files(call);
     if (!comparison) return tl::unexpected(comparison.error());
-    const auto sheet = comparison_sheet(*comparison);
+    auto sheet = comparison_sheet(*comparison);
     if (!sheet) return tl::unexpected(sheet.error());
-    auto picture = finish_picture(*sheet, call.output, call.a, {call.b});
-    if (!picture) return tl::unexpected(picture.error());
-    return ToolAnswer{{comparison_text(*comparison)}, comparison_json(*comparison), std::move(*picture)};
+    return Answer{{comparison_text(*comparison)}, comparison_json(*comparison), std::move(*sheet), {}, !comparison->differs()};
 }
 
-ToolCall compare_call() {
-    const auto o = std::make_shared<CompareCall>();
-    return {tool_flags({{"--a", kModelForm, "The first version: a file below the server's folder", cli::read_text(o->a)},
-                        {"--b", kModelForm, "The second version", cli::read_text(o->b)},
-                        output_flag(o->output)},
+Call compare_call() {
+    const auto o = std::make_shared<CompareOptions>();
+    return {call_flags({{"--a", kModelForm, "The first version: a file below the server's folder", engine::read_text(o->a)},
+                        {"--b", kModelForm, "The second version", engine::read_text(o->b)}},
                        compare_flags(*o)),
             {o.get()},
-            [o] { return run_compare_tool(*o); }};
+            [o] { return run_compare(*o); }};
 }
 
-Result<ToolAnswer> run_info_tool(const RenderOptions& options) {
+Result<Answer> run_info(const RenderOptions& options) {
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     const auto text = describe_scene(*job, true, false);
     if (!text) return tl::unexpected(text.error());
-    return ToolAnswer{{}, Json::parse(*text)};
+    return Answer{{}, Json::parse(*text)};
 }
 
-Result<ToolAnswer> run_measure_tool(const RenderOptions& options) {
+Result<Answer> run_measure(const RenderOptions& options) {
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     auto measures = measures_json(*job);
     if (!measures) return tl::unexpected(measures.error());
     auto parts = parts_json(*job, true);
     if (!parts) return tl::unexpected(parts.error());
-    ToolAnswer answer;
+    Answer answer;
     if (measures->is_null())
         answer.notes.emplace_back("WARNING: nothing was measured: there are no triangles, or more than 2^25 by drawing meshes again");
     for (const std::string& note : notes_of_measures(*measures)) answer.notes.push_back(note);
@@ -235,67 +224,88 @@ Result<ToolAnswer> run_measure_tool(const RenderOptions& options) {
     return answer;
 }
 
-template <Result<ToolAnswer> (*Run)(const RenderOptions&)>
-ToolCall scene_call() {
+template <Result<Answer> (*Run)(const RenderOptions&)>
+Call scene_call() {
     const auto o = std::make_shared<RenderOptions>();
-    return {tool_flags({path_flag(o->scene)}, render_flags(*o, kRenderSize)), {o.get()}, [o] { return Run(*o); }};
+    return {call_flags({path_flag(o->scene)}, render_flags(*o, kRenderSize)), {o.get()}, [o] { return Run(*o); }};
 }
 
 }  // namespace
 
-std::span<const Tool> all_tools() {
-    static const Tool kTools[] = {
+std::span<const CallRow> all_calls() {
+    static const CallRow kCalls[] = {
         {"look",
          "Look at a 3D model: labelled views on one sheet with dimensions, and a report of what each view shows of each part. Begin here "
          "after making or changing a model. Lines that begin with FAULT come first: a view with a fault (blank, cropped, cut, inside, "
          "tiny) must not be relied on. Takes all flags of `halflit look` by their names",
-         true,
-         {"path", "view", "section", "edges", "hidden-edges", "size", "perspective", "projection", "certify", "up", "output"},
+         {"path", "view", "section", "edges", "hidden-edges", "size", "perspective", "projection", "certify", "up"},
          {"path"},
+         true,
+         "look",
          look_call},
         {"render",
          "Draw one picture of a 3D model from a view or a placed camera, shaded and lit. Takes all flags of `halflit render` that decide "
          "the "
          "picture by their names",
-         true,
          {"path", "view", "azimuth", "elevation", "zoom", "fov", "camera", "camera-position", "camera-target", "size", "samples",
-          "background", "light", "env", "ground", "edges", "section", "up", "output"},
+          "background", "light", "env", "ground", "edges", "section", "up"},
          {"path"},
+         true,
+         "render",
          render_call},
         {"measure",
          "Measure a 3D model and each of its parts: box, area, volume, centre, bodies, and whether the surface is watertight",
-         false,
          {"path", "section", "up"},
          {"path"},
-         scene_call<run_measure_tool>},
+         false,
+         "measure",
+         scene_call<run_measure>},
         {"section",
          "Cut a 3D model by planes: the areas of the cuts, and a sheet of views of what is left",
-         true,
-         {"path", "section", "section-hatch", "view", "edges", "size", "perspective", "up", "output"},
+         {"path", "section", "section-hatch", "view", "edges", "size", "perspective", "up"},
          {"path", "section"},
+         true,
+         "section",
          look_call},
         {"compare",
          "Compare two versions of a 3D model: pictures of both by one camera with what changed, parts, measures, and the distance of the "
          "surfaces with its bound",
-         true,
-         {"a", "b", "view", "max", "size", "up", "output"},
+         {"a", "b", "view", "max", "size", "up"},
          {"a", "b"},
+         true,
+         "compare",
          compare_call},
-        {"explain",
+        {"explain-view",
          "Tell what made a pixel of a view of `look`: part, triangle, material, lights, and what lies before and behind it. The views are "
          "those of look with the same arguments; boxes in its report are in the same pixels",
-         false,
          {"path", "pixel", "of", "view", "section", "size", "perspective", "up"},
          {"path", "pixel"},
+         false,
+         "explain",
+         explain_view_call},
+        {"explain",
+         "Tell what made pixels of the picture that `halflit render` draws with the same arguments",
+         {"path", "pixel"},
+         {"path", "pixel"},
+         false,
+         "",
          explain_call},
+        {"certify",
+         "Draw views of a 3D model until each triangle that can be seen is seen, and list those that no view shows",
+         {"path", "certify", "view", "section", "up"},
+         {"path"},
+         false,
+         "",
+         certify_call},
         {"info",
          "Describe a 3D model's file: format, counts, names, measures, materials and what drawing it requires",
-         false,
          {"path", "scene", "animation", "variant", "up"},
          {"path"},
-         scene_call<run_info_tool>},
+         false,
+         "info",
+         scene_call<run_info>},
     };
-    return kTools;
+    return kCalls;
 }
 
-}  // namespace halflit::cli
+}  // namespace halflit::engine

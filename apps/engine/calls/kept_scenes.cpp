@@ -1,4 +1,4 @@
-#include "apps/halflit/mcp/kept_scenes.hpp"
+#include "apps/engine/calls/kept_scenes.hpp"
 
 #include "apps/engine/job/built_in_scenes.hpp"
 #include "apps/io/gltf/build/pose_sources.hpp"
@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace halflit::cli {
+namespace halflit::engine {
 namespace {
 
 /// All that decides what is loaded. A new member does not compile here until it is added.
@@ -84,4 +84,4 @@ Result<SceneSource> KeptScenes::load(const RenderOptions& options) {
     return source;
 }
 
-}  // namespace halflit::cli
+}  // namespace halflit::engine

@@ -1,12 +1,12 @@
 #include "apps/engine/basics/spelling.hpp"
+#include "apps/engine/calls/call.hpp"
 #include "apps/engine/job/built_in_scenes.hpp"
-#include "apps/halflit/mcp/tool.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-namespace halflit::cli {
+namespace halflit::engine {
 namespace {
 
 using Value = nlohmann::json;
@@ -39,7 +39,7 @@ Json type_of(const Flag& flag) {
     return {{"type", number ? "number" : "string"}};
 }
 
-/// The first sentences of a help, as many as stay short: an agent pays for each word of each tool.
+/// The first sentences of a help, as many as stay short: an agent pays for each word of each row.
 std::string brief(const std::string& help) {
     constexpr std::size_t kMostBytes = 120;
     std::size_t end = help.find(". ");
@@ -57,7 +57,9 @@ Json property_of(const Flag& flag) {
 
 std::string argument_of(const Flag& flag) { return flag.long_name().substr(2); }
 
-const Flag* find_flag(const ToolCall& call, std::string_view name) {
+/// Underscores count as hyphens, as languages have no names with hyphens.
+const Flag* find_flag(const Call& call, std::string name) {
+    std::replace(name.begin(), name.end(), '_', '-');
     for (const FlagGroup& group : call.groups)
         for (const Flag& flag : group.flags)
             if (argument_of(flag) == name) return &flag;
@@ -68,27 +70,31 @@ const Flag* find_flag(const ToolCall& call, std::string_view name) {
 Result<std::string> text_of_value(const Flag& flag, const Value& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number()) return value.dump();
+    if (value.is_array() && !value.empty() && std::all_of(value.begin(), value.end(), [](const Value& one) { return one.is_number(); })) {
+        std::string text;
+        for (const Value& one : value) text.append(text.empty() ? "" : ",").append(one.dump());
+        return text;
+    }
     if (value.is_boolean() && flag.form == "off|on") return std::string(value.get<bool>() ? "on" : "off");
     return fail(ErrorCode::usage, std::string("expected ") + (flag.form.empty() ? "true or false" : flag.form) +
                                       ", found a value of type " + value.type_name());
 }
 
-Result<void> read_text_of(const Flag& flag, std::string text, const ModelFolder& folder) {
+Result<void> read_text_of(const Flag& flag, std::string text, const ResolvePath& to_read) {
     const std::vector<std::string> words = words_of(flag.form, '|');
     const auto named = [&](const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); };
     if (text.empty() && !flag.form.empty()) return fail(ErrorCode::usage, "expected a value, found nothing");
     if (text.find('\0') != std::string::npos) return fail(ErrorCode::usage, "expected text without zero bytes");
     const bool built_in = named(kModelForm) && is_built_in_name(text);
-    const bool reads = named(kModelForm) || named(kFileForm), writes = named(kPictureForm);
-    if ((reads || writes) && !named(text) && !built_in) {
-        auto path = reads ? folder.to_read(text) : folder.to_write(text);
+    if ((named(kModelForm) || named(kFileForm)) && !named(text) && !built_in) {
+        auto path = to_read(text);
         if (!path) return tl::unexpected(path.error());
         text = std::move(*path);
     }
     return flag.read(text);
 }
 
-Result<void> read_argument(const Flag& flag, const Value& value, const ModelFolder& folder) {
+Result<void> read_argument(const Flag& flag, const Value& value, const ResolvePath& to_read) {
     constexpr std::size_t kMostValues = 1000;
     if (value.is_null()) return {};
     if (flag.form.empty()) {
@@ -96,35 +102,41 @@ Result<void> read_argument(const Flag& flag, const Value& value, const ModelFold
             return fail(ErrorCode::usage, std::string("expected true or false, found a value of type ") + value.type_name());
         return value.get<bool>() ? flag.read("") : Result<void>();
     }
-    if (value.is_array() && flag.repeated) {
+    if (value.is_array() && flag.repeated && !(!value.empty() && value.front().is_number())) {
         if (value.size() > kMostValues) return fail(ErrorCode::usage, "expected at most " + std::to_string(kMostValues) + " values");
         for (const Value& one : value) {
             auto text = text_of_value(flag, one);
             if (!text) return tl::unexpected(text.error());
-            if (const auto read = read_text_of(flag, std::move(*text), folder); !read) return read;
+            if (const auto read = read_text_of(flag, std::move(*text), to_read); !read) return read;
         }
         return {};
     }
     auto text = text_of_value(flag, value);
     if (!text) return tl::unexpected(text.error());
-    return read_text_of(flag, std::move(*text), folder);
+    return read_text_of(flag, std::move(*text), to_read);
 }
 
 }  // namespace
 
-Json tool_json(const Tool& tool) {
-    const ToolCall call = tool.make();
-    Json properties = Json::object();
-    for (const std::string_view name : tool.shown)
-        if (const Flag* const flag = find_flag(call, name)) properties[std::string(name)] = property_of(*flag);
-    Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"required", tool.required}};
-    return {{"name", tool.name},
-            {"description", tool.help},
-            {"inputSchema", std::move(schema)},
-            {"annotations", {{"readOnlyHint", !tool.writes}, {"openWorldHint", false}}}};
+Result<const CallRow*> find_call(std::string_view name) {
+    std::vector<std::string> names;
+    for (const CallRow& row : all_calls()) {
+        if (row.name == name) return &row;
+        names.push_back(row.name);
+    }
+    const std::string hint = did_you_mean(std::string(name), names);
+    return fail(ErrorCode::usage,
+                "unknown call '" + std::string(name) + "'" + (hint.empty() ? ", expected one of " + joined(names, ", ") : hint));
 }
 
-Result<void> read_arguments(const Tool& tool, const ToolCall& call, const Value& arguments, const ModelFolder& folder) {
+Json arguments_schema(const CallRow& row, const Call& call) {
+    Json properties = Json::object();
+    for (const std::string_view name : row.shown)
+        if (const Flag* const flag = find_flag(call, std::string(name))) properties[std::string(name)] = property_of(*flag);
+    return {{"type", "object"}, {"properties", std::move(properties)}, {"required", row.required}};
+}
+
+Result<void> read_arguments(const CallRow& row, const Call& call, const Value& arguments, const ResolvePath& to_read) {
     for (const auto& [name, value] : arguments.items()) {
         const Flag* const flag = find_flag(call, name);
         if (flag == nullptr) {
@@ -132,17 +144,17 @@ Result<void> read_arguments(const Tool& tool, const ToolCall& call, const Value&
             for (const FlagGroup& group : call.groups)
                 for (const Flag& one : group.flags) names.push_back(argument_of(one));
             const std::string hint = did_you_mean(name, names);
-            const std::vector<std::string> shown(tool.shown.begin(), tool.shown.end());
-            return fail(ErrorCode::usage, tool.name + ": unknown argument '" + name + "'" +
+            const std::vector<std::string> shown(row.shown.begin(), row.shown.end());
+            return fail(ErrorCode::usage, row.name + ": unknown argument '" + name + "'" +
                                               (hint.empty() ? ", expected some of " + joined(shown, ", ") : hint));
         }
-        if (const auto read = read_argument(*flag, value, folder); !read)
+        if (const auto read = read_argument(*flag, value, to_read); !read)
             return fail(read.error().code, name + ": " + read.error().message);
     }
-    for (const std::string_view name : tool.required)
+    for (const std::string_view name : row.required)
         if (const auto found = arguments.find(std::string(name)); found == arguments.end() || found->is_null())
-            return fail(ErrorCode::usage, tool.name + ": expected the argument '" + std::string(name) + "'");
+            return fail(ErrorCode::usage, row.name + ": expected the argument '" + std::string(name) + "'");
     return {};
 }
 
-}  // namespace halflit::cli
+}  // namespace halflit::engine

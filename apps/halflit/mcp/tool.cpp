@@ -1,0 +1,52 @@
+#include "apps/halflit/mcp/tool.hpp"
+
+#include "apps/engine/basics/file_names.hpp"
+#include "apps/io/files/atomic_file.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace halflit::cli {
+
+std::vector<Tool> tools() {
+    std::vector<Tool> tools;
+    for (const CallRow& row : all_calls())
+        if (!row.tool.empty()) tools.push_back({&row, row.has_picture});
+    return tools;
+}
+
+Json tool_json(const Tool& tool) {
+    Json schema = arguments_schema(*tool.row, tool.row->make());
+    if (tool.writes)
+        schema["properties"]["output"] = {{"type", "string"},
+                                          {"description", "Also write the picture: a .png, .jpg or .webp file below the server's folder"}};
+    return {{"name", tool.row->tool},
+            {"description", tool.row->help},
+            {"inputSchema", std::move(schema)},
+            {"annotations", {{"readOnlyHint", !tool.writes}, {"openWorldHint", false}}}};
+}
+
+Result<OutputFormat> format_of_output(const std::string& output) {
+    if (output.empty()) return OutputFormat::png;
+    const auto format = output_format_of(output);
+    if (!format) return format;
+    if (*format == OutputFormat::png || *format == OutputFormat::jpg || *format == OutputFormat::webp) return format;
+    return fail(ErrorCode::usage, "output: expected a .png, .jpg or .webp file");
+}
+
+Result<ToolAnswer> tool_answer(Answer answer, const std::string& output, OutputFormat format) {
+    ToolAnswer finished{std::move(answer.notes), std::move(answer.report), {}};
+    if (!answer.picture) return finished;
+    auto bytes = encode_image(*answer.picture, format);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (!output.empty()) {
+        if (std::any_of(answer.inputs.begin(), answer.inputs.end(), [&](const auto& input) { return same_file(output, input); }))
+            return fail(ErrorCode::io, output + ": the scene needs it, and it is not overwritten");
+        if (const auto written = io::write_file(output, *bytes); !written) return tl::unexpected(written.error());
+    }
+    const char* const mime_type = format == OutputFormat::png ? "image/png" : format == OutputFormat::jpg ? "image/jpeg" : "image/webp";
+    finished.picture = {std::move(*bytes), mime_type};
+    return finished;
+}
+
+}  // namespace halflit::cli
