@@ -1,4 +1,7 @@
 // Functions of the component io, in a build without it: what needs files is refused.
+#include "apps/c/boundary.hpp"
+#include "halflit/halflit.h"
+
 #include <halflit/image.hpp>
 #include <halflit/model.hpp>
 
@@ -32,3 +35,13 @@ Result<std::vector<std::uint8_t>> encode_image(const Image& /*image*/, OutputFor
 Result<void> write_image(const std::string& path, const Image& /*image*/) { return refuse(path); }
 
 }  // namespace halflit
+
+int32_t halflit_call(const char* name, const char* /*arguments*/, const halflit_scene* /*scene*/, halflit_answer** answer) {
+    return halflit::c::guarded(__func__, {{name, "name"}, {answer, "answer"}},
+                               [&]() -> halflit::Result<void> { return halflit::refuse(name); });
+}
+const char* halflit_answer_report(const halflit_answer* /*answer*/) { return ""; }
+const char* halflit_answer_notes(const halflit_answer* /*answer*/) { return ""; }
+int32_t halflit_answer_is_good(const halflit_answer* /*answer*/) { return 0; }
+const void* halflit_answer_picture(const halflit_answer* /*answer*/, int32_t* /*width*/, int32_t* /*height*/) { return nullptr; }
+void halflit_answer_destroy(halflit_answer* /*answer*/) {}

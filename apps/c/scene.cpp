@@ -13,11 +13,13 @@ using namespace halflit::c;
 
 namespace {
 
-Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene) {
+/// name: of the file.
+Result<void> hand_over(Result<LoadedScene> loaded, halflit_scene** scene, const char* name = nullptr) {
     if (!loaded) return tl::unexpected<Error>(loaded.error());
     auto made = std::make_unique<halflit_scene>();
     made->scene = std::move(loaded->scene);
     made->file_meshes = made->scene.meshes.size();
+    if (name != nullptr) made->name = name, made->info = std::move(loaded->info);
     made->warnings = std::move(loaded->warnings);
     made->animations = std::move(loaded->animations);
     made->motion = std::move(loaded->motion);
@@ -67,7 +69,7 @@ int32_t halflit_scene_load(const char* path, const halflit_load_options* options
     return guarded(__func__, {{path, "path"}, {scene, "scene"}}, [&]() -> Result<void> {
         const auto how = load_options(options);
         if (!how) return tl::unexpected<Error>(how.error());
-        return hand_over(load_model(path, *how), scene);
+        return hand_over(load_model(path, *how), scene, path);
     });
 }
 
@@ -77,7 +79,7 @@ int32_t halflit_scene_load_memory(const void* bytes, size_t count, const char* n
         const auto how = load_options(options);
         if (!how) return tl::unexpected<Error>(how.error());
         const std::span<const std::byte> file(static_cast<const std::byte*>(bytes), count);
-        return hand_over(load_model_bytes(file, name, base_dir != nullptr ? base_dir : "", *how), scene);
+        return hand_over(load_model_bytes(file, name, base_dir != nullptr ? base_dir : "", *how), scene, name);
     });
 }
 

@@ -76,6 +76,8 @@ using GivenMeshes = std::map<std::size_t, Mesh>;
 
 struct halflit_scene {
     halflit::Scene scene;
+    std::string name = "scene";              ///< of the file; for messages
+    std::optional<halflit::SceneInfo> info;  ///< of the file
     std::vector<std::string> warnings;
     std::vector<halflit::AnimationInfo> animations;
     std::shared_ptr<const halflit::Motion> motion;      ///< null: not kept

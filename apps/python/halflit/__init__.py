@@ -12,6 +12,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, List
 
 from . import _c
+from ._calls import Answer, call, certify, compare, explain, info, look, measure, section
 from ._camera import Camera
 from ._errors import BadInputError, CancelledError, Error, FileError, LimitError, UsageError
 from ._geometry import MeshIndex
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 __version__ = _c.VERSION
 __all__ = [
     "AOVS",
+    "Answer",
     "BadInputError",
     "Camera",
     "CancelledError",
@@ -48,10 +50,18 @@ __all__ = [
     "TextureUse",
     "Turntable",
     "UsageError",
+    "call",
+    "certify",
+    "compare",
     "contact_sheet",
+    "explain",
+    "info",
+    "look",
+    "measure",
     "pixel_epoch",
     "render",
     "render_meshes",
+    "section",
     "version",
 ]
 

@@ -34,6 +34,7 @@ _NUMBERS = {
 Progress = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double)
 Cancelled = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
 _CALLBACKS = {"progress": Progress, "cancelled": Cancelled}
+_RESULTS = {"const char*": ctypes.c_char_p, "const void*": ctypes.c_void_p}
 Write = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
 
 
@@ -162,7 +163,7 @@ def _load() -> Any:
                 function = getattr(library, name)
             except AttributeError:
                 raise ImportError(f"halflit: {path} has no {name}: it is another version than this package, {VERSION}") from None
-            function.restype = {"void": None, "const char*": ctypes.c_char_p}.get(result.strip()) or _NUMBERS.get(result.strip())
+            function.restype = _RESULTS.get(result.strip()) or _NUMBERS.get(result.strip())
             declared = [] if arguments == "void" else arguments.split(", ")
             function.argtypes = [_argument(text) for text in declared]
             # Names as in Python, where units are said by the documentation.
@@ -195,7 +196,7 @@ _PATHS = {"scene_load": 0, "scene_add_file": 1, "scene_load_environment": 1, "wr
 _LONG = frozenset((
     "scene_load", "scene_load_memory", "scene_load_environment", "scene_set_environment", "scene_add_mesh", "scene_set_mesh", "scene_set_vertices",
     "scene_set_material", "scene_pose", "scene_get_box", "scene_add_file", "scene_add_file_memory", "camera_frame", "camera_views",
-    "choose_picture",
+    "choose_picture", "call",
 ))  # fmt: skip
 _is_for_main: Any = None
 

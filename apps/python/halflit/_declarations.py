@@ -277,4 +277,10 @@ int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, 
 uint64_t halflit_pixel_hash(const void* bytes, size_t count);
 int32_t halflit_write_image(const char* path, const halflit_target* target);
 int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
+int32_t halflit_call(const char* name, const char* arguments, const halflit_scene* scene, halflit_answer** answer);
+const char* halflit_answer_report(const halflit_answer* answer);
+const char* halflit_answer_notes(const halflit_answer* answer);
+int32_t halflit_answer_is_good(const halflit_answer* answer);
+const void* halflit_answer_picture(const halflit_answer* answer, int32_t* width, int32_t* height);
+void halflit_answer_destroy(halflit_answer* answer);
 """

@@ -875,6 +875,32 @@ HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target
 /// Encodes the target's pixels as halflit_write_image does. format: "png", "jpg" and so on. write is called once, with the whole file.
 HALFLIT_C_API int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
 
+// ---- calls: what the program's commands tell -------------------------------------------------------------------------
+
+/// The answer of a call: a report, lines for people, and a picture where the call draws one.
+typedef struct halflit_answer halflit_answer;
+
+/// Makes the call of that name:
+/// - look: labelled views on one sheet, and what each view shows of each part. section: the same with planes that cut
+/// - certify: which triangles no view shows
+/// - render: one picture
+/// - measure: box, area, volume and bodies of the model and of its parts. info: the file, and what drawing it requires
+/// - explain: what made pixels of the picture of render. explain-view: of a view of look
+/// - compare: two versions of a model, the paths a and b
+/// arguments: a JSON object, or null. Its names are those of the flags of the program's command, without hyphens at their begin:
+/// {"path": "model.glb", "view": ["front", "iso"], "size": "640x480"}. Each name and value means what it means to the program.
+/// scene: null, or the scene that is drawn in place of the file that `path` names. It is copied.
+HALFLIT_C_API int32_t halflit_call(const char* name, const char* arguments, const halflit_scene* scene, halflit_answer** answer);
+/// The report, a JSON object as docs/report.md has it. It is valid as long as the answer, as all that follows.
+HALFLIT_C_API const char* halflit_answer_report(const halflit_answer* answer);
+/// Lines for people, each with a newline at its end: faults first.
+HALFLIT_C_API const char* halflit_answer_notes(const halflit_answer* answer);
+/// 0: a negative result, for which the program ends with 1: a view with a fault, versions that differ, a blank picture.
+HALFLIT_C_API int32_t halflit_answer_is_good(const halflit_answer* answer);
+/// The picture: rows of 8-bit RGBA from the top, without gaps; null where the call draws none. width and height may be null.
+HALFLIT_C_API const void* halflit_answer_picture(const halflit_answer* answer, int32_t* width, int32_t* height);
+HALFLIT_C_API void halflit_answer_destroy(halflit_answer* answer);
+
 #ifdef __cplusplus
 }
 #endif
