@@ -7,6 +7,8 @@
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -89,6 +91,18 @@ Result<void> make_view_normals(const Camera& camera, std::span<float> normal) {
         for (int k = 0; k < 3; ++k) normal[i + static_cast<std::size_t>(k)] = static_cast<float>(dot(axis(m, k), n));
     }
     return {};
+}
+
+DepthRange make_depth_codes(std::span<const float> depth, std::span<std::uint16_t> codes) {
+    const auto is_something = [](float d) { return d < 3e38f; };
+    DepthRange range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    for (const float d : depth)
+        if (is_something(d)) range = {std::min(range.least, double{d}), std::max(range.most, double{d})};
+    if (range.least > range.most) range = {};
+    const double extent = range.most - range.least, scale = extent > 0.0 ? 65534.0 / extent : 0.0;
+    for (std::size_t i = 0; i < depth.size(); ++i)
+        codes[i] = is_something(depth[i]) ? static_cast<std::uint16_t>(1.5 + (double{depth[i]} - range.least) * scale) : std::uint16_t{0};
+    return range;
 }
 
 void make_mesh_numbers(const Scene& scene, std::span<std::uint32_t> instance) {

@@ -20,10 +20,8 @@ Result<void> check_settings(const Settings& settings, int width, int height) {
     for (const raster::Setting& setting : raster::kSettings) {
         const double value = setting.get(settings);
         if (setting.values.contains(value)) continue;
-        std::string name(setting.name);
-        std::replace(name.begin(), name.end(), '_', ' ');
-        return fail(ErrorCode::usage,
-                    name.append(": ").append(raster::number_text(value)).append(", expected ") + setting.values.expected());
+        return fail(ErrorCode::usage, std::string(setting.name) + ": expected " + setting.values.expected() + ", found '" +
+                                          raster::number_text(value / setting.values.unit) + "'");
     }
     if (auto ok = shading::check_options(settings.shading); !ok) return ok;
     const Region& r = settings.region;

@@ -24,12 +24,14 @@ inline constexpr std::string_view kToneCurveNames[] = {"none", "reinhard", "aces
 inline constexpr std::string_view kEdgeChoiceNames[] = {"none", "feature", "silhouette", "all"};
 inline constexpr std::string_view kHiddenEdgeNames[] = {"none", "dashed"};
 inline constexpr std::string_view kOffOn[] = {"off", "on"};
-inline constexpr int kSampleCounts[] = {1, 4, 8, 16}, kFootprintRatios[] = {1, 2, 4, 8, 16};
+inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
 inline constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Up to six digits.
+/// Up to six digits, and all those of whole numbers of up to seven.
 inline std::string number_text(double x) {
     char text[32];
+    constexpr double kMostWhole = 1e7;
+    if (x > -kMostWhole && x < kMostWhole && x == static_cast<double>(static_cast<int>(x))) return std::to_string(static_cast<int>(x));
     return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6).ptr};
 }
 
@@ -45,9 +47,6 @@ struct SettingValues {
     std::span<const int> list{};  ///< of whole numbers; empty: all in the range
     std::span<const std::string_view> names{};
     double unit = 1;  ///< of the number that a flag takes
-    // What a flag takes, in its unit, where that is less than what a setting may be.
-    double flag_low = 0, flag_high = 0;  ///< equal: no other range
-    std::span<const int> flag_list{};    ///< empty: no other list
 
     [[nodiscard]] constexpr SettingValues or_zero(std::string_view word) const {
         SettingValues out = *this;
@@ -62,23 +61,6 @@ struct SettingValues {
     [[nodiscard]] constexpr SettingValues in_units_of(double size) const {
         SettingValues out = *this;
         out.unit = size;
-        return out;
-    }
-    [[nodiscard]] constexpr SettingValues with_flag_from(double from, double to) const {
-        SettingValues out = *this;
-        out.flag_low = from, out.flag_high = to;
-        return out;
-    }
-    [[nodiscard]] constexpr SettingValues with_flag_one_of(std::span<const int> choices) const {
-        SettingValues out = *this;
-        out.flag_list = choices;
-        return out;
-    }
-    /// The values that a flag takes.
-    [[nodiscard]] constexpr SettingValues of_flag() const {
-        SettingValues out = *this;
-        if (flag_high > flag_low) out.low = flag_low * unit, out.high = flag_high * unit, out.open = out.zero_too = false;
-        if (!flag_list.empty()) out.list = flag_list;
         return out;
     }
     [[nodiscard]] constexpr bool is_truth() const { return names.data() == kOffOn; }

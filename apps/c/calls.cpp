@@ -1,10 +1,13 @@
 // Functions of halflit.h that call the engine by name: look, compare, explain and others.
 #include "apps/c/boundary.hpp"
+#include "apps/c/convert.hpp"
 #include "apps/c/scene_handle.hpp"
 #include "apps/c/versioned.hpp"
 #include "apps/engine/basics/timeout.hpp"
 #include "apps/engine/calls/call.hpp"
 #include "apps/engine/job/scene_source.hpp"
+#include "apps/engine/request/setting_flags.hpp"
+#include "apps/engine/request/values.hpp"
 
 #include <memory>
 #include <utility>
@@ -45,24 +48,30 @@ private:
     const halflit_scene& from_;
 };
 
-Result<halflit_answer> answer_of(const char* name, const char* given, const halflit_scene* scene) {
+/// scene: stands for the path.
+Result<engine::Call> call_of(const char* name, const char* given, bool scene) {
     const auto row = engine::find_call(name);
     if (!row) return tl::unexpected<Error>(row.error());
     auto arguments = nlohmann::json::parse(given != nullptr ? given : "{}", nullptr, false);
     if (!arguments.is_object()) return fail(ErrorCode::usage, "arguments: expected a JSON object");
-    const engine::Call call = (*row)->make();
-    std::optional<SceneOfHandle> keeper;
-    if (scene != nullptr) {
+    engine::Call call = (*row)->make();
+    if (scene) {
         if (call.scenes.size() != 1 || arguments.contains("path") || arguments.contains("a"))
             return fail(ErrorCode::usage, std::string(name) + ": expected either a scene or the path of a model");
-        arguments["path"] = "demo";  // a name that needs no file: the keeper has the scene
-        keeper.emplace(*scene);
+        arguments["path"] = "demo";  // a name that needs no file: a keeper has the scene
     }
-    if (const auto read = engine::read_arguments(**row, call, arguments, [](const std::string& path) { return Result<std::string>(path); });
-        !read)
-        return tl::unexpected<Error>(read.error());
-    for (engine::RenderOptions* const options : call.scenes) options->keeper = keeper ? &*keeper : nullptr;
-    auto answer = engine::within_time(call.scenes.front()->timeout_s, call.run);
+    const auto as_given = [](const std::string& path) { return Result<std::string>(path); };
+    if (const auto read = engine::read_arguments(**row, call, arguments, as_given); !read) return tl::unexpected<Error>(read.error());
+    return call;
+}
+
+Result<halflit_answer> answer_of(const char* name, const char* arguments, const halflit_scene* scene) {
+    const auto call = call_of(name, arguments, scene != nullptr);
+    if (!call) return tl::unexpected<Error>(call.error());
+    std::optional<SceneOfHandle> keeper;
+    if (scene != nullptr) keeper.emplace(*scene);
+    for (engine::RenderOptions* const options : call->scenes) options->keeper = keeper ? &*keeper : nullptr;
+    auto answer = engine::within_time(call->scenes.front()->timeout_s, call->run);
     if (!answer) return tl::unexpected<Error>(answer.error());
     halflit_answer made{engine::to_text(answer->report, true), {}, std::move(answer->picture), answer->good};
     for (const std::string& note : answer->notes) made.notes.append(note).append("\n");
@@ -71,12 +80,38 @@ Result<halflit_answer> answer_of(const char* name, const char* given, const half
 
 }  // namespace
 
+int32_t halflit_settings_read(halflit_settings* to, const char* name, const char* value) {
+    return guarded(__func__, {{to, "settings"}, {name, "name"}, {value, "value"}}, [&]() -> Result<void> {
+        auto read = settings(to);
+        if (!read) return tl::unexpected<Error>(read.error());
+        if (auto ok = engine::read_setting(*read, name, value); !ok) return ok;
+        return write_struct(to_c(*read), to, "halflit_settings");
+    });
+}
+
+int32_t halflit_read_color(const char* text, float color[4]) {
+    return guarded(__func__, {{text, "text"}, {color, "color"}}, [&]() -> Result<void> {
+        const auto read = engine::parse_color(text);
+        if (!read) return tl::unexpected<Error>(read.error());
+        color[0] = read->x, color[1] = read->y, color[2] = read->z, color[3] = read->w;
+        return {};
+    });
+}
+
 int32_t halflit_call(const char* name, const char* arguments, const halflit_scene* scene, halflit_answer** answer) {
     return guarded(__func__, {{name, "name"}, {answer, "answer"}}, [&]() -> Result<void> {
         auto made = answer_of(name, arguments, scene);
         if (!made) return tl::unexpected<Error>(made.error());
         *answer = std::make_unique<halflit_answer>(std::move(*made)).release();
         return {};
+    });
+}
+
+int32_t halflit_call_check(const char* name, const char* arguments) {
+    return guarded(__func__, {{name, "name"}}, [&]() -> Result<void> {
+        const auto call = call_of(name, arguments, true);
+        if (!call) return tl::unexpected<Error>(call.error());
+        return call->check ? call->check() : Result<void>();
     });
 }
 

@@ -25,6 +25,14 @@ int32_t halflit_ray_distances(const halflit_camera* given_camera, int32_t width,
     });
 }
 
+int32_t halflit_depth_codes(const float* depth, size_t count, uint16_t* codes, double range[2]) {
+    return guarded(__func__, {{depth, "depth"}, {codes, "codes"}, {range, "range"}}, [&]() -> Result<void> {
+        const DepthRange found = make_depth_codes({depth, count}, {codes, count});
+        range[0] = found.least, range[1] = found.most;
+        return {};
+    });
+}
+
 int32_t halflit_view_normals(const halflit_camera* given_camera, float* normal, size_t count) {
     return guarded(__func__, {{given_camera, "camera"}, {normal, "normal"}}, [&]() -> Result<void> {
         const auto from = camera(given_camera);

@@ -40,6 +40,17 @@ int32_t halflit_call(const char* name, const char* /*arguments*/, const halflit_
     return halflit::c::guarded(__func__, {{name, "name"}, {answer, "answer"}},
                                [&]() -> halflit::Result<void> { return halflit::refuse(name); });
 }
+int32_t halflit_settings_read(halflit_settings* settings, const char* name, const char* /*value*/) {
+    return halflit::c::guarded(__func__, {{settings, "settings"}, {name, "name"}},
+                               [&]() -> halflit::Result<void> { return halflit::refuse(name); });
+}
+int32_t halflit_read_color(const char* text, float color[4]) {
+    return halflit::c::guarded(__func__, {{text, "text"}, {color, "color"}},
+                               [&]() -> halflit::Result<void> { return halflit::refuse(text); });
+}
+int32_t halflit_call_check(const char* name, const char* /*arguments*/) {
+    return halflit::c::guarded(__func__, {{name, "name"}}, [&]() -> halflit::Result<void> { return halflit::refuse(name); });
+}
 const char* halflit_answer_report(const halflit_answer* /*answer*/) { return ""; }
 const char* halflit_answer_notes(const halflit_answer* /*answer*/) { return ""; }
 int32_t halflit_answer_is_good(const halflit_answer* /*answer*/) { return 0; }

@@ -35,6 +35,7 @@ struct Call {
     std::vector<FlagGroup> groups;
     std::vector<RenderOptions*> scenes;  ///< options of each scene that is drawn; limits are set there
     std::function<Result<Answer>()> run;
+    std::function<Result<void>()> check{};  ///< what `run` would refuse before it loads a scene; empty: nothing
 };
 
 struct CallRow {

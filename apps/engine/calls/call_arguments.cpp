@@ -57,12 +57,15 @@ Json property_of(const Flag& flag) {
 
 std::string argument_of(const Flag& flag) { return flag.long_name().substr(2); }
 
-/// Underscores count as hyphens, as languages have no names with hyphens.
+/// By any of its names. Underscores count as hyphens, as languages have no names with hyphens.
 const Flag* find_flag(const Call& call, std::string name) {
     std::replace(name.begin(), name.end(), '_', '-');
+    const std::string word = "--" + name;
     for (const FlagGroup& group : call.groups)
-        for (const Flag& flag : group.flags)
-            if (argument_of(flag) == name) return &flag;
+        for (const Flag& flag : group.flags) {
+            const std::vector<std::string> names = words_of(flag.names, ',');
+            if (std::find(names.begin(), names.end(), word) != names.end()) return &flag;
+        }
     return nullptr;
 }
 

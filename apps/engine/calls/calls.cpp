@@ -177,7 +177,10 @@ Result<Answer> run_render(const RenderOptions& options) {
 
 Call render_call() {
     const auto o = std::make_shared<RenderOptions>();
-    return {call_flags({path_flag(o->scene)}, render_flags(*o, kRenderSize)), {o.get()}, [o] { return run_render(*o); }};
+    return {call_flags({path_flag(o->scene)}, render_flags(*o, kRenderSize)),
+            {o.get()},
+            [o] { return run_render(*o); },
+            [o] { return check_request(*o, kRenderSize); }};
 }
 
 Result<Answer> run_compare(const CompareOptions& call) {

@@ -58,8 +58,9 @@ constexpr AovKind kKinds[] = {
      "distance from the camera's eye, along the ray through the pixel's centre; infinity where nothing is"},
     {"normal", AovFormat::floats, 3, &Target::shading_normal, nullptr, as_normals, false,
      "unit normal that light falls on, normal map included, in world space"},
+    {"vertex_normal", AovFormat::floats, 3, &Target::normal, nullptr, as_normals, false, "the same without the normal map"},
     {"view_normal", AovFormat::floats, 3, &Target::shading_normal, nullptr, as_view_normals, false,
-     "the same in the camera's space: x to the right, y up, z towards the viewer"},
+     "`normal` in the camera's space: x to the right, y up, z towards the viewer"},
     {"albedo", AovFormat::floats, 3, &Target::albedo, nullptr, nullptr, false, "base colour, linear"},
     {"position", AovFormat::floats, 3, &Target::position, nullptr, nullptr, false, "position in world space"},
     {"barycentric", AovFormat::floats, 2, &Target::barycentric, nullptr, as_three, false,
@@ -232,16 +233,8 @@ Result<std::vector<std::uint8_t>> AovPlanes::encode16(const AovKind& aov, const 
 }
 
 Result<std::vector<std::uint8_t>> AovPlanes::encode_depth16(const std::vector<float>& depth, AovFiles& files) const {
-    DepthRange range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    for (const float d : depth)
-        if (is_something(d)) range = {std::min(range.least, double{d}), std::max(range.most, double{d})};
-    if (range.least > range.most) range = {};
-    const double extent = range.most - range.least, scale = extent > 0.0 ? 65534.0 / extent : 0.0;
-    std::vector<std::uint16_t> codes;
-    codes.reserve(depth.size());
-    for (const float d : depth)
-        codes.push_back(is_something(d) ? static_cast<std::uint16_t>(1.5 + (double{d} - range.least) * scale) : std::uint16_t{0});
-    files.depth16 = range;
+    std::vector<std::uint16_t> codes(depth.size());
+    files.depth16 = make_depth_codes(depth, codes);
     return io::encode_grey16(width_, height_, codes);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/engine/job/render_job.hpp"
+#include "halflit/fragment_planes.hpp"
 #include "halflit/target.hpp"
 
 #include <cstdint>
@@ -58,11 +59,6 @@ struct AovFile {
     std::string name;  ///< of the AOV, or of the file that explains some
     std::string path;
     std::vector<std::uint8_t> bytes;
-};
-
-/// Depths of the codes 1 and 65535 of depth16.
-struct DepthRange {
-    double least = 0, most = 0;
 };
 
 struct AovFiles {

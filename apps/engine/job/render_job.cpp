@@ -346,9 +346,8 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
     return {};
 }
 
-Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
-    RenderOptions options = flags;
-    if (const auto settled = settle_cameras(options); !settled) return tl::unexpected(settled.error());
+/// What excludes what, and what can be told of sizes before a scene is loaded.
+Result<void> check_view(const RenderOptions& options, PictureSize usual) {
     const bool placed_by_flags = options.camera_position || options.camera_orbit;
     if (placed_by_flags && (options.camera || options.whole_scene || (options.camera_position && options.camera_orbit)))
         return fail(
@@ -374,7 +373,14 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
                                                       static_cast<int>(most), margin));
     }
     if (options.size)
-        if (const auto checked = check_size(*options.size, options.settings.region); !checked) return tl::unexpected(checked.error());
+        if (const auto checked = check_size(*options.size, options.settings.region); !checked) return checked;
+    return {};
+}
+
+Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
+    RenderOptions options = flags;
+    if (const auto settled = settle_cameras(options); !settled) return tl::unexpected(settled.error());
+    if (const auto checked = check_view(options, usual); !checked) return tl::unexpected(checked.error());
     if (options.max_memory_bytes > 0)
         if (const auto limited = limit_process_memory(options.max_memory_bytes); !limited) return tl::unexpected(limited.error());
     RenderJob job;
@@ -437,6 +443,12 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
 }
 
 }  // namespace
+
+Result<void> check_request(const RenderOptions& options, PictureSize usual) {
+    Settings settings;
+    if (const auto chosen = choose_settings(settings, options); !chosen) return chosen;
+    return check_view(options, usual);
+}
 
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
     return within_time(options.timeout_s, [&] { return make_job(options, usual); });

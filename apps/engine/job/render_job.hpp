@@ -56,6 +56,9 @@ struct RenderJob {
     [[nodiscard]] Execution timed_execution() const;
 };
 
+/// Fails (usage) for options that exclude each other, and for values that no scene could have.
+[[nodiscard]] Result<void> check_request(const RenderOptions& options, PictureSize usual);
+
 /// `usual`: the picture size without --size; it is reduced to the aspect ratio of the file's camera. Errors that can be found without the
 /// scene are reported before it is loaded.
 [[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);

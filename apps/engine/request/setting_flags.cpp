@@ -16,13 +16,13 @@ using raster::SettingValues;
 std::string form_of(const Setting& setting) {
     if (!setting.form.empty()) return std::string(setting.form);
     if (setting.values.kind == SettingValues::Kind::named) return fmt::format("{}", fmt::join(setting.values.names, "|"));
-    return fmt::format("{}", fmt::join(setting.values.of_flag().list, "|"));
+    return fmt::format("{}", fmt::join(setting.values.list, "|"));
 }
 
 /// The help, with the range and the default.
 std::string help_of(const Setting& setting, const Settings& defaults) {
     std::string help(setting.help);
-    const SettingValues values = setting.values.of_flag();
+    const SettingValues values = setting.values;
     const bool ranged = values.kind != SettingValues::Kind::named && values.list.empty() && values.high < 1e18 && values.zero.empty();
     if (ranged) help.insert(std::min(help.find(" (default"), help.size()), ", " + values.expected());
     if (help.find("default") == std::string::npos && !setting.values.zero_too)
@@ -33,29 +33,36 @@ std::string help_of(const Setting& setting, const Settings& defaults) {
 }  // namespace
 
 Result<double> read_value(const SettingValues& values, const std::string& text) {
-    double value = -1.0;
     if (values.kind == SettingValues::Kind::named) {
-        const auto found = std::find(values.names.begin(), values.names.end(), text);
-        if (found == values.names.end()) {
-            const std::vector<std::string> names(values.names.begin(), values.names.end());
-            return fail(ErrorCode::usage,
-                        fmt::format("expected one of {}, found '{}'{}", joined(names, ", "), text, did_you_mean(text, names)));
-        }
-        value = static_cast<double>(found - values.names.begin());
-    } else if (!values.zero.empty() && text == values.zero) {
-        value = 0.0;
-    } else if (!values.one.empty() && text == values.one) {
-        value = 1.0;
-    } else {
-        constexpr float kMost = 3e38f;
-        const auto number = values.kind == SettingValues::Kind::whole
-                                ? parse_int(text, 0, 1 << 30).map([](std::int64_t whole) { return static_cast<double>(whole); })
-                                : parse_float(text, -kMost, kMost).map([](float x) { return static_cast<double>(x); });
-        value = number ? *number * values.unit : -1.0;
-        if (!number || !values.word(value).empty() || !values.contains(value))
-            return fail(ErrorCode::usage, fmt::format("expected {}, found '{}'", values.expected(), text));
+        std::string name = text;
+        std::replace(name.begin(), name.end(), '_', '-');  // as names of languages have it
+        const auto found = std::find(values.names.begin(), values.names.end(), name);
+        if (found != values.names.end()) return static_cast<double>(found - values.names.begin());
+        const std::vector<std::string> names(values.names.begin(), values.names.end());
+        return fail(ErrorCode::usage,
+                    fmt::format("expected one of {}, found '{}'{}", joined(names, ", "), text, did_you_mean(text, names)));
     }
-    return value;
+    if (!values.zero.empty() && text == values.zero) return 0.0;
+    if (!values.one.empty() && text == values.one) return 1.0;
+    constexpr float kMost = 3e38f;
+    constexpr std::int64_t kMostWhole = std::int64_t{1} << 62;
+    const auto number = values.kind == SettingValues::Kind::whole
+                            ? parse_int(text, -kMostWhole, kMostWhole).map([](std::int64_t whole) { return static_cast<double>(whole); })
+                            : parse_float(text, -kMost, kMost).map([](float x) { return static_cast<double>(x); });
+    if (!number || !values.contains(*number * values.unit))
+        return fail(ErrorCode::usage, fmt::format("expected {}, found '{}'", values.expected(), text));
+    return *number * values.unit;
+}
+
+Result<void> read_setting(Settings& settings, std::string_view name, const std::string& text) {
+    for (const Setting& setting : raster::kSettings) {
+        if (setting.name != name) continue;
+        const auto value = read_value(setting.values.in_units_of(1.0), text);
+        if (!value) return fail(ErrorCode::usage, fmt::format("{}: {}", name, value.error().message));
+        setting.set(settings, *value);
+        return {};
+    }
+    return fail(ErrorCode::usage, fmt::format("unknown setting '{}'", name));
 }
 
 std::string setting_text(const Setting& setting, const Settings& settings) {
@@ -71,7 +78,7 @@ void add_setting_flags(FlagGroup& group, Settings& settings, std::vector<std::st
             group.flags.push_back({std::string(setting.flag), form_of(setting), help_of(setting, settings),
                                    [&settings, &given, &setting](const std::string& text) {
                                        given.push_back(setting.name);
-                                       const auto value = read_value(setting.values.of_flag(), text);
+                                       const auto value = read_value(setting.values, text);
                                        if (value) setting.set(settings, *value);
                                        return value.map([](double) {});
                                    }});

@@ -18,6 +18,9 @@ void add_setting_flags(FlagGroup& group, Settings& settings, std::vector<std::st
 /// The number that a flag's text stands for.
 [[nodiscard]] Result<double> read_value(const raster::SettingValues& values, const std::string& text);
 
+/// Reads a setting by its name in C and Python. Numbers are in the setting's own unit. Fails (usage) with the name at its begin.
+[[nodiscard]] Result<void> read_setting(Settings& settings, std::string_view name, const std::string& text);
+
 /// A setting's value as its flag takes it.
 [[nodiscard]] std::string setting_text(const raster::Setting& setting, const Settings& settings);
 

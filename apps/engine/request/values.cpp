@@ -1,5 +1,7 @@
 #include "apps/engine/request/values.hpp"
 
+#include "apps/io/files/text.hpp"
+
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
@@ -46,9 +48,11 @@ struct NamedColor {
     int rgb;
 };
 // The CSS colours of these names.
-constexpr NamedColor kNamedColors[] = {{"black", 0x000000}, {"white", 0xffffff},   {"gray", 0x808080},   {"grey", 0x808080},
-                                       {"red", 0xff0000},   {"green", 0x008000},   {"blue", 0x0000ff},   {"yellow", 0xffff00},
-                                       {"cyan", 0x00ffff},  {"magenta", 0xff00ff}, {"orange", 0xffa500}, {"navy", 0x000080}};
+constexpr NamedColor kNamedColors[] = {{"aqua", 0x00ffff},    {"black", 0x000000},   {"blue", 0x0000ff},   {"cyan", 0x00ffff},
+                                       {"fuchsia", 0xff00ff}, {"gray", 0x808080},    {"green", 0x008000},  {"grey", 0x808080},
+                                       {"lime", 0x00ff00},    {"magenta", 0xff00ff}, {"maroon", 0x800000}, {"navy", 0x000080},
+                                       {"olive", 0x808000},   {"orange", 0xffa500},  {"purple", 0x800080}, {"red", 0xff0000},
+                                       {"silver", 0xc0c0c0},  {"teal", 0x008080},    {"white", 0xffffff},  {"yellow", 0xffff00}};
 constexpr std::string_view kColorForms = "a colour (#rgb, #rrggbb, #rrggbbaa, transparent, black, white, gray, red, green, blue, ...)";
 
 Vec4f color_from_codes(int red, int green, int blue, int alpha) {
@@ -237,7 +241,7 @@ Result<Region> parse_region(std::string_view text) {
 Result<Vec4f> parse_color(std::string_view text) {
     if (text == "transparent") return Vec4f{0, 0, 0, 0};
     for (const NamedColor& named : kNamedColors)
-        if (text == named.name) return color_from_codes(named.rgb >> 16, (named.rgb >> 8) & 255, named.rgb & 255, 255);
+        if (io::same_word(text, named.name)) return color_from_codes(named.rgb >> 16, (named.rgb >> 8) & 255, named.rgb & 255, 255);
     if (!text.starts_with('#')) return expected(kColorForms, text);
     const std::string_view digits = text.substr(1);
     std::uint32_t bits = 0;
@@ -248,6 +252,8 @@ Result<Vec4f> parse_color(std::string_view text) {
     switch (digits.size()) {
         case 3:
             return color_from_codes(nibble(8), nibble(4), nibble(0), 255);
+        case 4:
+            return color_from_codes(nibble(12), nibble(8), nibble(4), nibble(0));
         case 6:
             return color_from_codes(byte(16), byte(8), byte(0), 255);
         case 8:

@@ -59,7 +59,7 @@ struct PixelPlace {
 /// "X,Y,W,H" with X and Y from 0, W and H from 1.
 [[nodiscard]] Result<Region> parse_region(std::string_view text);
 
-/// "#rgb", "#rrggbb", "#rrggbbaa" or a name, to linear light with linear alpha.
+/// "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a name of CSS 2 in any case, or "transparent", to linear light with linear alpha.
 [[nodiscard]] Result<Vec4f> parse_color(std::string_view text);
 
 /// A light, and the position that was given for it, which the light holds rounded to float.

@@ -235,7 +235,7 @@ def call(name: str, *arguments: Any) -> None:
 
 
 #: Names of halflit.h in messages -> keywords.
-_KEYWORDS = {"azimuth_deg": "azimuth", "elevation_deg": "elevation", "fov_y_deg": "fov", "studio_turn_rad": "studio_turn", "time_s": "time"}
+_KEYWORDS = {"max_error_codes": "max_error", "azimuth_deg": "azimuth", "elevation_deg": "elevation", "fov_y_deg": "fov", "studio_turn_rad": "studio_turn", "time_s": "time"}
 
 
 def _told(text: str) -> str:

@@ -1,9 +1,11 @@
 """Colours: the sRGB curve, and what a caller may give as a colour."""
 from __future__ import annotations
 
+import ctypes
 import math
 from typing import Any, List, Optional
 
+from . import _c
 from ._errors import UsageError
 from ._lazy import np
 from ._types import Array, Color
@@ -37,7 +39,7 @@ def color(value: Color, name: str, count: int, most: Optional[float] = None) -> 
     Texts and uint8 are sRGB. most: largest number of red, green and blue. None: it is light, which has no limit.
     """
     try:
-        array = _codes_of(value, name) if isinstance(value, str) else np.asarray(value)
+        array = _read(value, name)[:count] if isinstance(value, str) else np.asarray(value)
     except ValueError as error:  # rows of different lengths
         raise error if isinstance(error, UsageError) else UsageError(f"{name}: expected numbers, found {shown(value)}") from None
     if array.dtype == np.uint8 and array.ndim == 1:
@@ -59,22 +61,11 @@ def color(value: Color, name: str, count: int, most: Optional[float] = None) -> 
     return numbers + [1.0] * (count - len(numbers))
 
 
-#: Colours by the names of CSS 2.
-NAMES = {
-    "aqua": "00ffff", "black": "000000", "blue": "0000ff", "cyan": "00ffff", "fuchsia": "ff00ff", "gray": "808080", "green": "008000",
-    "grey": "808080", "lime": "00ff00", "magenta": "ff00ff", "maroon": "800000", "navy": "000080", "olive": "808000", "orange": "ffa500",
-    "purple": "800080", "red": "ff0000", "silver": "c0c0c0", "teal": "008080", "white": "ffffff", "yellow": "ffff00",
-}  # fmt: skip
-
-
-def _codes_of(text: str, name: str) -> Array:
-    digits = text[1:] if text.startswith("#") else NAMES.get(text.lower(), "")
-    if len(digits) in (3, 4):
-        digits = "".join(2 * digit for digit in digits)
+def _read(text: str, name: str) -> Array:
+    """A colour as the program reads it."""
+    numbers = (ctypes.c_float * 4)()
     try:
-        codes = list(bytes.fromhex(digits)) if digits.isalnum() else []
-    except ValueError:
-        codes = []
-    if len(codes) not in (3, 4):
-        raise UsageError(f"{name}: expected #rgb, #rrggbb, #rrggbbaa, a name such as white, or numbers, found {text!r}")
-    return np.array(codes, np.uint8)
+        _c.call("read_color", _c.bytes_of(text, name), ctypes.addressof(numbers))
+    except UsageError as error:
+        raise UsageError(f"{name}: {error}") from None
+    return np.array(numbers, np.float64)

@@ -257,6 +257,7 @@ int32_t halflit_scene_set_environment(halflit_scene* scene, const float* rgb, in
 int32_t halflit_scene_load_environment(halflit_scene* scene, const char* path, const halflit_environment_options* options);
 int32_t halflit_scene_set_sky(halflit_scene* scene, const halflit_environment_options* options);
 int32_t halflit_settings_init(halflit_settings* settings, size_t size);
+int32_t halflit_settings_read(halflit_settings* settings, const char* name, const char* value);
 int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
 int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* request, int32_t size[2], halflit_camera* camera, halflit_settings* settings, halflit_lighting** lighting);
 void halflit_lighting_destroy(halflit_lighting* lighting);
@@ -268,6 +269,7 @@ int32_t halflit_target_init(halflit_target* target, size_t size);
 int32_t halflit_render(halflit_renderer* renderer, const halflit_scene* scene, const halflit_lighting* lighting, const halflit_camera* camera, const halflit_settings* settings, const halflit_target* target, halflit_report* report);
 int32_t halflit_renderer_get_warning(const halflit_renderer* renderer, int32_t index, const char** text);
 int32_t halflit_ray_distances(const halflit_camera* camera, int32_t width, int32_t height, const halflit_region* region, float* depth);
+int32_t halflit_depth_codes(const float* depth, size_t count, uint16_t* codes, double range[2]);
 int32_t halflit_view_normals(const halflit_camera* camera, float* normal, size_t count);
 int32_t halflit_scene_mesh_numbers(const halflit_scene* scene, uint32_t* instance, size_t count);
 int32_t halflit_scene_material_numbers(const halflit_scene* scene, uint32_t* instance, size_t count);
@@ -277,7 +279,9 @@ int32_t halflit_measure(halflit_renderer* renderer, const halflit_scene* scene, 
 uint64_t halflit_pixel_hash(const void* bytes, size_t count);
 int32_t halflit_write_image(const char* path, const halflit_target* target);
 int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
+int32_t halflit_read_color(const char* text, float color[4]);
 int32_t halflit_call(const char* name, const char* arguments, const halflit_scene* scene, halflit_answer** answer);
+int32_t halflit_call_check(const char* name, const char* arguments);
 const char* halflit_answer_report(const halflit_answer* answer);
 const char* halflit_answer_notes(const halflit_answer* answer);
 int32_t halflit_answer_is_good(const halflit_answer* answer);

@@ -8,8 +8,7 @@ from . import _c
 from ._color import BRIGHTEST, color
 from ._errors import UsageError
 from ._material import Lobe
-from ._record import chosen
-from ._values import truth
+from ._values import real, truth
 
 #: Planes beside the picture: name -> (member of the target, channels, number type). They show what each pixel's first sample sees.
 PLANES = {
@@ -25,8 +24,9 @@ PLANES = {
     "barycentric": ("barycentric", 2, "float32"),  # weights of the triangle's second and third corner
     "uv": ("uv", 2, "float32"),  # texture coordinates, set 0, before a texture's own transform
 }
-#: Planes that are made of others: name -> the plane that it is made of, in the same shape and type.
+#: Planes that are made of others: name -> the plane that it is made of, in the same shape.
 DERIVED = {
+    "depth16": "depth",  # uint16: 1 to 65535 between the least and the largest depth; 0 where nothing is
     "ray": "depth",  # distance from the camera's eye; infinity where nothing is
     "view_normal": "normal",  # in the camera's space: x to the right, y up, z towards the viewer
     "mesh": "id",  # index of the mesh plus 1
@@ -73,12 +73,6 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "max_layers": ("max_layers", "int"),
     "contact_shadow": ("contact_shadow", "float"),
 }
-#: Keywords that have an effect only if another one is not "none" or "off". 0 of a shadow's is its default, as measure() returns it.
-_PARTS = {
-    "edges": ("edge_color", "hidden_edges", "edge_angle_deg", "edge_width"),
-    "shadows": ("shadow_size", "soft_shadow_maps", "shadow_fade", "sky_shadows", "contact_shadow", "shadow_terminator_offset",
-                "shadow_memory_limit"),
-}
 #: Keywords that have another place here.
 _ELSEWHERE = {
     **dict.fromkeys(("width", "height", "resolution"), "the picture's is size=(width, height)"),
@@ -112,15 +106,25 @@ def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
             settings.lobe, settings.override_lobe = Lobe._from(value)._c, 1
         else:
             member, kind = SETTINGS[name]
-            if kind.isupper() and isinstance(value, str):
-                value = chosen(value, kind, name)
-            settings.put(member, int(truth(value, name)) if kind == "bool" else value, name)
-    for whole, parts in _PARTS.items():
-        if getattr(settings, whole) == 0:  # none, off
-            for name in parts:
-                value = options.get(name)
-                if value is not None and not (whole == "shadows" and value == 0):
-                    raise UsageError(f"{name}: has no effect {'without edges' if whole == 'edges' else 'with shadows off'}")
+            if kind.isupper() and not isinstance(value, str):
+                settings.put(member, value, name)
+            else:
+                try:
+                    _c.call("settings_read", ctypes.byref(settings), member.encode(), text_of_setting(value, kind, name))
+                except UsageError as error:
+                    raise UsageError(str(error).replace(member, name, 1)) from None
+
+
+def text_of_setting(value: Any, kind: str, name: str) -> bytes:
+    """A value as the engine reads it."""
+    if kind == "bool" and not isinstance(value, str):
+        value = "on" if truth(value, name) else "off"
+    elif not isinstance(value, str):
+        number = real(value, name)
+        value = repr(number).removesuffix(".0")
+    if value == "":
+        raise UsageError(f"{name}: expected a value, found nothing")
+    return _c.bytes_of(value, name) or b""
 
 
 def set_background(settings: Any, value: Any) -> None:

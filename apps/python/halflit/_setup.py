@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import json
 import math
 import re
 from typing import Any, Dict, Iterable, List, NoReturn, Optional, Tuple
@@ -110,11 +111,11 @@ def exposure_of(options: Dict[Any, Any]) -> Tuple[Optional[float], float]:
 def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, Any]) -> Request:
     struct, given = _c.make("picture_request"), options.get("camera")
     whole_scene = [name for name in WHOLE_SCENE if options.get(name) is not None]
+    if whole_scene:
+        check_view_of(options, size)
     struct.frame = bool(whole_scene) or (isinstance(given, str) and given == "frame")
     camera, scene_camera = None, None
     if given is not None and not (isinstance(given, str) and given == "frame"):
-        if whole_scene:
-            raise UsageError(f"camera: cannot be combined with {', '.join(whole_scene)}, which make a camera of their own")
         if isinstance(given, (str, int, np.integer)):
             scene_camera = str(given)
         else:
@@ -123,9 +124,6 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
         if name in whole_scene:
             struct.put(member, finite(options[name], name), name)
     if options.get("view") is not None:
-        for name in ("azimuth", "elevation"):
-            if name in whole_scene:
-                raise UsageError(f"view: cannot be combined with {name}")
         camera = views_of(scene, [options["view"]], size, options)[0]
     elif options.get("fit") is not None:
         struct.margin_x, struct.margin_y = margins(options["fit"], size)
@@ -134,6 +132,19 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
     struct.exposure = exposure or 0.0
     light_of(scene, options, struct)
     return Request(struct, camera, scene_camera)
+
+
+def check_view_of(options: Dict[Any, Any], size: Optional[Tuple[int, int]]) -> None:
+    """Fails as the program does for the keywords of a view."""
+    arguments = {name: options[name] for name in WHOLE_SCENE if options.get(name) is not None}
+    arguments = {name: finite(value, name) if name in ("azimuth", "elevation", "zoom") else value for name, value in arguments.items()}
+    if isinstance(arguments.get("view"), (tuple, list)):
+        arguments["view"] = ",".join(str(finite(angle, "view")) for angle in arguments["view"])
+    if options.get("camera") is not None:
+        arguments["camera"] = options["camera"] if isinstance(options["camera"], (str, int)) else 0
+    if size is not None:
+        arguments["size"] = f"{size[0]}x{size[1]}"
+    _c.call("call_check", b"render", json.dumps(arguments, default=shown).encode())
 
 
 def light_of(scene: Any, options: Dict[Any, Any], struct: Any) -> None:

@@ -45,6 +45,10 @@ class Target:
                     _c.call("ray_distances", ctypes.byref(camera._c), *size, ctypes.byref(region), plane.ctypes.data)
                 elif name == "view_normal":
                     _c.call("view_normals", ctypes.byref(camera._c), plane.ctypes.data, plane.size // 3)
+                elif name == "depth16":
+                    codes, extent = np.empty(plane.shape, np.uint16), (ctypes.c_double * 2)()
+                    _c.call("depth_codes", plane.ctypes.data, plane.size, codes.ctypes.data, ctypes.addressof(extent))
+                    plane = codes
                 elif name == "part":
                     plane = part_numbers(scene)[plane]
                 else:
@@ -74,7 +78,8 @@ def region_of(size: Tuple[Any, ...], options: Dict[Any, Any], settings: Any, tar
         raise UsageError(f"region: expected x, y, width and height, found {shown(options['region'])}")
     x, y, width, height = region
     if min(x, y) < 0 or min(width, height) < 1 or x + width > size[0] or y + height > size[1]:
-        raise UsageError(f"region: expected a part of the {size[0]} x {size[1]} picture, found {region}")
+        found = ",".join(map(str, region))
+        raise UsageError(f"region: expected a part of the {size[0]}x{size[1]} picture, found {found}")
     for name, value in zip(("x", "y", "width", "height"), region):
         setattr(settings.region, name, value)
     target.region_alone = 1

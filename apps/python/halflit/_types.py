@@ -49,5 +49,5 @@ Isa = Literal["scalar", "sse2", "sse4.1", "avx2", "avx512", "neon64"]
 Part = Literal["node", "instance", "mesh", "material", "camera"]
 Aov = Literal[
     "depth", "normal", "vertex_normal", "albedo", "position", "id", "triangle", "coverage", "lights", "barycentric", "uv", "ray",
-    "view_normal", "mesh", "material", "part",
+    "view_normal", "mesh", "material", "part", "depth16",
 ]  # fmt: skip

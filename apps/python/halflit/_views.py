@@ -18,15 +18,15 @@ def margins(fit: Any, size: Optional[Tuple[int, int]]) -> Tuple[float, float]:
     width, height = size or USUAL_SIZE
     if not 0 <= real(fit, "fit") < 1e6:
         raise UsageError(f"fit: expected a margin in pixels, found {shown(fit)}")
-    return min(2 * fit / width, 0.9), min(2 * fit / height, 0.9)
+    most = int(0.45 * min(width, height))
+    if fit > most:
+        raise UsageError(f"fit: expected at most {most} pixels, 45 % of the picture's shorter side, found {fit}")
+    return 2 * fit / width, 2 * fit / height
 
 
 def has_parallel_rays(options: Dict[Any, Any]) -> bool:
-    """The keyword orthographic, with which fov has no effect."""
-    found = truth(options.get("orthographic") or False, "orthographic")
-    if found and options.get("fov") is not None:
-        raise UsageError("fov: has no effect with orthographic")
-    return found
+    """The keyword orthographic."""
+    return truth(options.get("orthographic") or False, "orthographic")
 
 
 def view_struct(scene: Any, view: Any, size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> Any:

@@ -25,6 +25,13 @@ namespace halflit {
 /// (usage) unless there are whole normals.
 [[nodiscard]] HALFLIT_API Result<void> make_view_normals(const Camera& camera, std::span<float> normal);
 
+/// Least and largest depth of a picture.
+struct DepthRange {
+    double least = 0.0, most = 0.0;
+};
+/// Depths as 1 to 65535 between the least and the largest of them, and 0 for infinity. Requires: as many codes as depths.
+HALFLIT_API DepthRange make_depth_codes(std::span<const float> depth, std::span<std::uint16_t> codes);
+
 /// Turns numbers of Target::instance into indices of Scene::meshes, plus 1. 0, and numbers that the scene does not have, become 0.
 HALFLIT_API void make_mesh_numbers(const Scene& scene, std::span<std::uint32_t> instance);
 /// The same of Scene::materials: Instance::material, or else Mesh::material. 0 for the default material too.

@@ -667,6 +667,9 @@ typedef struct halflit_settings {
     int32_t reserved[2];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
+/// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message of
+/// a wrong value is the program's.
+HALFLIT_C_API int32_t halflit_settings_read(halflit_settings* settings, const char* name, const char* value);
 
 // ---- what a picture shows ----------------------------------------------------------------------------------------------
 
@@ -830,6 +833,8 @@ HALFLIT_C_API int32_t halflit_renderer_get_warning(const halflit_renderer* rende
 /// depths of an orthographic camera.
 HALFLIT_C_API int32_t halflit_ray_distances(const halflit_camera* camera, int32_t width, int32_t height, const halflit_region* region,
                                             float* depth);
+/// Writes `count` depths as codes from 1 to 65535 between the least and the largest of them, which go into range, and 0 for infinity.
+HALFLIT_C_API int32_t halflit_depth_codes(const float* depth, size_t count, uint16_t* codes, double range[2]);
 /// Turns `count` normals of the world, 3 floats each, into the camera's space: x to the right, y up, z towards the viewer.
 HALFLIT_C_API int32_t halflit_view_normals(const halflit_camera* camera, float* normal, size_t count);
 /// Turns `count` numbers of the plane `instance` into indices of meshes plus 1. 0, and what the scene does not have, becomes 0.
@@ -875,6 +880,10 @@ HALFLIT_C_API int32_t halflit_write_image(const char* path, const halflit_target
 /// Encodes the target's pixels as halflit_write_image does. format: "png", "jpg" and so on. write is called once, with the whole file.
 HALFLIT_C_API int32_t halflit_encode_image(const char* format, const halflit_target* target, halflit_write write, void* user);
 
+/// Reads a colour as the program does: "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a name of CSS 2 or "transparent". color: linear light, and
+/// linear alpha.
+HALFLIT_C_API int32_t halflit_read_color(const char* text, float color[4]);
+
 // ---- calls: what the program's commands tell -------------------------------------------------------------------------
 
 /// The answer of a call: a report, lines for people, and a picture where the call draws one.
@@ -891,6 +900,8 @@ typedef struct halflit_answer halflit_answer;
 /// {"path": "model.glb", "view": ["front", "iso"], "size": "640x480"}. Each name and value means what it means to the program.
 /// scene: null, or the scene that is drawn in place of the file that `path` names. It is copied.
 HALFLIT_C_API int32_t halflit_call(const char* name, const char* arguments, const halflit_scene* scene, halflit_answer** answer);
+/// Fails as the call would before it loads a scene: for unknown names, wrong values, and what excludes each other. `path` may be left out.
+HALFLIT_C_API int32_t halflit_call_check(const char* name, const char* arguments);
 /// The report, a JSON object as docs/report.md has it. It is valid as long as the answer, as all that follows.
 HALFLIT_C_API const char* halflit_answer_report(const halflit_answer* answer);
 /// Lines for people, each with a newline at its end: faults first.
