@@ -115,13 +115,18 @@ def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
                     raise UsageError(str(error).replace(member, name, 1)) from None
 
 
+def number_text(number: float) -> str:
+    """The shortest digits."""
+    text = repr(number)
+    return text[:-2] if text.endswith(".0") else text
+
+
 def text_of_setting(value: Any, kind: str, name: str) -> bytes:
     """A value as the engine reads it."""
     if kind == "bool" and not isinstance(value, str):
         value = "on" if truth(value, name) else "off"
     elif not isinstance(value, str):
-        number = real(value, name)
-        value = repr(number).removesuffix(".0")
+        value = number_text(real(value, name))
     if value == "":
         raise UsageError(f"{name}: expected a value, found nothing")
     return _c.bytes_of(value, name) or b""

@@ -12,7 +12,7 @@ from ._camera import Camera
 from ._color import color
 from ._errors import UsageError
 from ._lazy import np
-from ._options import VIEW, WHOLE_SCENE, check_names
+from ._options import VIEW, WHOLE_SCENE, check_names, number_text
 from ._record import chosen
 from ._values import finite, listed, real, shown, sized
 from ._views import has_parallel_rays, margins, views_of
@@ -137,9 +137,11 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
 def check_view_of(options: Dict[Any, Any], size: Optional[Tuple[int, int]]) -> None:
     """Fails as the program does for the keywords of a view."""
     arguments = {name: options[name] for name in WHOLE_SCENE if options.get(name) is not None}
-    arguments = {name: finite(value, name) if name in ("azimuth", "elevation", "zoom") else value for name, value in arguments.items()}
+    for name in ("azimuth", "elevation", "zoom"):
+        if name in arguments:
+            arguments[name] = number_text(finite(arguments[name], name))
     if isinstance(arguments.get("view"), (tuple, list)):
-        arguments["view"] = ",".join(str(finite(angle, "view")) for angle in arguments["view"])
+        arguments["view"] = ",".join(number_text(finite(angle, "view")) for angle in arguments["view"])
     if options.get("camera") is not None:
         arguments["camera"] = options["camera"] if isinstance(options["camera"], (str, int)) else 0
     if size is not None:
