@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace halflit {
 
@@ -119,5 +120,26 @@ enum Stage : std::uint32_t {
     kStageAnisotropy = 1u << 19,     ///< highlights and reflections are longer along a direction
     kStageCount = 20
 };
+/// Names of the stages in reports, by bit.
+inline constexpr std::string_view kStageNames[kStageCount] = {"base colour texture",
+                                                              "vertex colour",
+                                                              "normal map",
+                                                              "metallic roughness texture",
+                                                              "occlusion texture",
+                                                              "emissive texture",
+                                                              "lights",
+                                                              "specular",
+                                                              "ambient",
+                                                              "unlit",
+                                                              "texture gradients",
+                                                              "light at vertices or triangles",
+                                                              "environment",
+                                                              "transmission",
+                                                              "specular colour",
+                                                              "shadow catcher",
+                                                              "clearcoat",
+                                                              "sheen",
+                                                              "iridescence",
+                                                              "anisotropy"};
 
 }  // namespace halflit
