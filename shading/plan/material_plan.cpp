@@ -105,7 +105,11 @@ void plan_look_through(const Material& material, bool rough, TransmissionPlan& p
     const double root =
         __builtin_sqrt(std::min(static_cast<double>(clamp_or_low(material.dielectric_reflectance, 0.0f, 1.0f)), kMostReflectance));
     const double index = (1.0 + root) / (1.0 - root);
-    plan.inverse_ior = static_cast<float>(1.0 / index);
+    // KHR_materials_dispersion: the index of red is as much lower as that of blue is higher. No index is below that of air.
+    const double dispersion = clamp_or_low(material.dispersion, 0.0f, kMostScale);
+    const double spread = (index - 1.0) * std::min(0.025 * dispersion, 1.0);
+    for (int c = 0; c < 3; ++c) plan.inverse_ior[c] = static_cast<float>(1.0 / (index + spread * (c - 1)));
+    plan.disperses = spread > 0.0 && material.thickness > 0.0f;
     plan.blur = static_cast<float>(std::min(1.0, 2.0 * (index - 1.0)));
     plan.thickness = clamp_or_low(material.thickness, 0.0f, kMostNumber);
     plan.looked_through = plan.blur > 0.0f && (rough || plan.thickness > 0.0f);

@@ -38,9 +38,10 @@ struct TransmissionPlan {
     float absorbed[3] = {0, 0, 0};  ///< -log2 of it where the texture of thickness is 1
     /// Light from behind is blurred or bent: it comes from ShadingPlan::behind and the surroundings.
     bool looked_through = false;
-    float inverse_ior = 1;  ///< 1 / index of refraction
-    float blur = 0;         ///< per roughness: min(1, 2 (index - 1))
-    float thickness = 0;    ///< of the body below, world units
+    bool disperses = false;            ///< light of different colours is bent differently
+    float inverse_ior[3] = {1, 1, 1};  ///< 1 / index of refraction, by channel
+    float blur = 0;                    ///< per roughness: min(1, 2 (index - 1))
+    float thickness = 0;               ///< of the body below, world units
 };
 
 /// A coat as planned; used with kStageClearcoat.

@@ -796,10 +796,10 @@ struct Through {
     Vec3d light{0, 0, 0};
     double clear = 1;
 };
-Through look_through(const FrameInputs& frame, const Material& material, const FragmentBlock& block, int lane, const Surface& surface,
-                     double thickness, const Surroundings& around) {
-    const double root = std::sqrt(std::min(std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0), 0.9));
-    const double index = (1 + root) / (1 - root), wide = std::min(1.0, 2 * (index - 1));
+/// By the index of refraction of one colour; index: that of the middle one.
+Through look_through_at(double own_index, double index, const FrameInputs& frame, const Material& material, const FragmentBlock& block,
+                        int lane, const Surface& surface, double thickness, const Surroundings& around) {
+    const double wide = std::min(1.0, 2 * (index - 1));
     if (around.behind == nullptr || !material.transmits() || frame.options.specular == SpecularModel::none || !(wide > 0) ||
         !(material.roughness > kMinRoughness || material.thickness > 0.0f))
         return {};
@@ -809,7 +809,8 @@ Through look_through(const FrameInputs& frame, const Material& material, const F
     Vec3d bent = scale(surface.to_eye, -1);
     if (thick) {
         const double cosine = std::clamp(dot(surface.normal, surface.to_eye), 0.0, 1.0);
-        bent = scale(bent, 1 / index) + scale(surface.normal, cosine / index - std::sqrt(1 - (1 - cosine * cosine) / (index * index)));
+        bent = scale(bent, 1 / own_index) +
+               scale(surface.normal, cosine / own_index - std::sqrt(1 - (1 - cosine * cosine) / (own_index * own_index)));
     }
     const Vec3d out_of = surface.to_eye - scale(bent, 2 * dot(bent, surface.to_eye));
     const Vec3d exit = row3(block, kPosX, lane) + scale(bent, thick ? thickness : 0.0);
@@ -830,6 +831,19 @@ Through look_through(const FrameInputs& frame, const Material& material, const F
             : hemisphere(frame.ambient, out_of.y);
     const Vec3d surfaces{between(fine.r, coarse.r), between(fine.g, coarse.g), between(fine.b, coarse.b)};
     return {surfaces + scale(surroundings, open * share), open * (1 - share)};
+}
+
+Through look_through(const FrameInputs& frame, const Material& material, const FragmentBlock& block, int lane, const Surface& surface,
+                     double thickness, const Surroundings& around) {
+    const double root = std::sqrt(std::min(std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0), 0.9));
+    const double index = (1 + root) / (1 - root);
+    const double half_spread = std::min(index - 1, (index - 1) * 0.025 * held(double{material.dispersion}, 0.0, 1e6));
+    const auto through = [&](double own_index) {
+        return look_through_at(own_index, index, frame, material, block, lane, surface, thickness, around);
+    };
+    Through out = through(index);
+    if (half_spread > 0) out.light.x = through(index - half_spread).light.x, out.light.z = through(index + half_spread).light.z;
+    return out;
 }
 
 }  // namespace

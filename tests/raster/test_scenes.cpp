@@ -427,6 +427,35 @@ NamedScene brushed_scene() {
     return out;
 }
 
+NamedScene prisms_scene() {
+    NamedScene out{"prisms", {}, camera_at({-0.3f, 1.5f, 4.0f}, {0, 0.1f, 0}, 0.75f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    const int checks = add_texture(s, 32, 32, ColorSpace::srgb, 28, false), depths = add_texture(s, 32, 32, ColorSpace::linear, 29, false);
+    const auto place = balls_of(s);
+
+    Material crystal;
+    crystal.metallic = 0, crystal.roughness = 0;
+    crystal.transmission = 1, crystal.thickness = 0.8f, crystal.dispersion = 6;
+    place(crystal, 0, 0.9f);
+    Material diamond = crystal;
+    diamond.dielectric_reflectance = 0.17f, diamond.dispersion = 1;
+    diamond.base_color = {0.8f, 0.9f, 1, 1};
+    place(diamond, -1.2f, 0.4f);
+    Material frosted = crystal;
+    frosted.roughness = 0.3f, frosted.double_sided = true;
+    frosted.textures[TextureSlot::thickness].texture = frosted.textures[TextureSlot::transmission].texture = depths;
+    frosted.attenuation_color = {0.9f, 0.6f, 0.3f}, frosted.attenuation_distance = 0.5f;
+    place(frosted, 1.2f, 0.4f);
+    Material floor;
+    floor.metallic = 0;
+    floor.textures[TextureSlot::base_color].texture = checks;
+    const int checked = add_material(s, floor);
+    add(s, make_plane(7, 3), checked, translation({0, -0.55f, 0}));
+    add(s, make_box({3, 1, 0.1f}), checked, translation({0, 0.2f, -1}));
+    return out;
+}
+
 std::vector<NamedScene> all_scenes() {
     std::vector<NamedScene> scenes;
     Scene demo = demo_scene();
@@ -441,6 +470,7 @@ std::vector<NamedScene> all_scenes() {
     scenes.push_back(fabrics_scene());
     scenes.push_back(films_scene());
     scenes.push_back(brushed_scene());
+    scenes.push_back(prisms_scene());
     return scenes;
 }
 

@@ -155,6 +155,7 @@ class Material(Record):
         iridescence_texture: linear: red
         iridescence_thickness_texture: linear: green, from the least thickness to the greatest
         anisotropy_texture: linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
+        dispersion: spread of the indices of refraction of red and blue, from 0: 20 / Abbe's number (0)
     """
 
     _kind, _choices = "material", {"alpha_mode": "ALPHA"}
@@ -187,6 +188,7 @@ class Material(Record):
         "iridescence_thickness_min_nm": (0.0, math.inf),
         "iridescence_thickness_max_nm": (0.0, math.inf),
         "anisotropy_strength": (0.0, 1.0),
+        "dispersion": (0.0, math.inf),
     }
     base_color: Color
     metallic: float
@@ -230,6 +232,7 @@ class Material(Record):
     iridescence_texture: Union[TextureUse, int]
     iridescence_thickness_texture: Union[TextureUse, int]
     anisotropy_texture: Union[TextureUse, int]
+    dispersion: float
     # Other members.
     name: str
     alpha_mode: AlphaMode

@@ -116,6 +116,7 @@ class MaterialMembers(TypedDict, total=False):
     iridescence_texture: TextureOf
     iridescence_thickness_texture: TextureOf
     anisotropy_texture: TextureOf
+    dispersion: float
     name: str
     alpha_mode: AlphaMode
     double_sided: bool

@@ -77,13 +77,14 @@ struct Material {
     float specular = 1;             ///< weight of the specular reflection of dielectrics, in [0, 1]
     Vec3f specular_color{1, 1, 1};  ///< factor on F0 of dielectrics, linear, from 0; F0 is at most 1
 
-    // KHR_materials_transmission and KHR_materials_volume: light that passes through a surface without being scattered, tinted by the base
-    // colour and by what absorbs it on its way, blurred by the roughness, and bent where there is thickness. A surface that transmits is
-    // drawn as a transparent layer, and casts no shadow, whatever its alpha mode.
+    // KHR_materials_transmission, KHR_materials_volume and KHR_materials_dispersion: light that passes through a surface without being
+    // scattered, tinted by the base colour and by what absorbs it on its way, blurred by the roughness, and bent where there is thickness.
+    // A surface that transmits is drawn as a transparent layer, and casts no shadow, whatever its alpha mode.
     float transmission = 0;            ///< share of light from behind that passes through, in [0, 1]; the rest is diffuse
     float thickness = 0;               ///< path length of that light inside, world units, from 0
     float attenuation_distance = 0;    ///< path length after which white light has attenuation_color, world units; 0: no absorption
     Vec3f attenuation_color{1, 1, 1};  ///< linear, in [0, 1]
+    float dispersion = 0;              ///< spread of the indices of refraction of red and blue, from 0: 20 / Abbe's number
 
     // KHR_materials_clearcoat: a smooth layer with an index of refraction of 1.5 above the surface. It reflects with an F0 of 0.04, and
     // takes what it reflects from the light of all that is below it.

@@ -343,7 +343,9 @@ typedef struct halflit_material {
     halflit_texture_use iridescence_thickness_texture;
     /// linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
     halflit_texture_use anisotropy_texture;
-    int32_t reserved[1];  ///< 0
+    /// spread of the indices of refraction of red and blue, from 0: 20 / Abbe's number (0)
+    float dispersion;
+    int32_t reserved[2];  ///< 0
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
