@@ -28,9 +28,6 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 /// Stages that need a surface's direction and its metallic and rough parts.
 inline constexpr std::uint32_t kSurfaceStages = kStageLights | kStageAmbient | kStageTransmission | kStageClearcoat;
 
-/// Stages of layers above the base.
-inline constexpr std::uint32_t kLayerStages = kStageClearcoat | kStageSheen;
-
 /// Base colour, emission and alpha; `needs_color` is false where only light is asked for.
 static void fetch_surfaces(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, bool needs_color,
                            ShadeRows& rows) {

@@ -22,6 +22,10 @@ struct SpecularCurve {
     float least = 1;  ///< least cos^2 with a highlight; below it there is none
 };
 
+/// Stages of materials whose light is never fitted over cells: it does not follow from the mesh's normals alone, or is seen through others.
+inline constexpr std::uint32_t kStagesWithoutCells =
+    kStageNormalMap | kStageTransmission | kStageClearcoat | kStageSheen | kStageAnisotropy;
+
 /// What the light of a cell may be off by (light_cell.hpp), as light through the lobe, before its scale.
 struct CellTolerance {
     float relative = 0, absolute = 0;  ///< share of the light, and light; 0: this material's light is never fitted
