@@ -48,7 +48,7 @@ HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
 }
 
 /// Stages that add to the row `layers`, from the lowest layer to the highest.
-inline constexpr Stage kLayerOrder[] = {kStageSheen, kStageClearcoat};
+inline constexpr Stage kLayerOrder[] = {kStageDiffuseTransmission, kStageSheen, kStageClearcoat};
 inline constexpr std::uint32_t kLayerStages = [] {
     std::uint32_t stages = 0;
     for (const Stage stage : kLayerOrder) stages |= stage;

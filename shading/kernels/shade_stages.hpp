@@ -199,6 +199,10 @@ HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::
         fetch_transmission(material, block, count, rows);
         dim_matt_light(material, count, rows);
     }
+    if (has(material, kStageDiffuseTransmission))
+        scatter_through<kSpecular>(
+            frame, material, lights, block, count,
+            rows, [&](V3 normal) __attribute__((always_inline)) { return surroundings_at(frame, material, normal); });
     if (has(material, kStageSheen)) add_sheen(frame, material, lights, block, count, rows);
     if (has(material, kStageClearcoat)) add_clearcoat(frame, material, lights, block, count, rows);
 }

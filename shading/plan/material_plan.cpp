@@ -244,6 +244,15 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         plan.anisotropy.sine = static_cast<float>(turn.sin), plan.anisotropy.cosine = static_cast<float>(turn.cos);
         use_texture(true, TextureSlot::anisotropy);
     }
+    if ((plan.stages & (kStageLights | kStageAmbient)) != 0 && has_layer(material, kStageDiffuseTransmission)) {
+        plan.stages |= kStageDiffuseTransmission;
+        plan.diffuse_transmission.share = clamp_or_low(material.diffuse_transmission, 0.0f, 1.0f);
+        const Vec3f color = material.diffuse_transmission_color;
+        const float channels[] = {color.x, color.y, color.z};
+        for (int c = 0; c < 3; ++c) plan.diffuse_transmission.color[c] = clamp_or_low(channels[c], 0.0f, 1.0f);
+        use_texture(true, TextureSlot::diffuse_transmission);
+        use_texture(true, TextureSlot::diffuse_transmission_color);
+    }
     plan.normal_roughness = kinds.specular && loses_normals(plan.textures[TextureSlot::normal]);
     if (gradients) plan.stages |= kStageGradients;
     if (base_color_seen && (available & kColorSlot) != 0) plan.stages |= kStageVertexColor;

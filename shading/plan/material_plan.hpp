@@ -24,7 +24,7 @@ struct SpecularCurve {
 
 /// Stages of materials whose light is never fitted over cells: it does not follow from the mesh's normals alone, or is seen through others.
 inline constexpr std::uint32_t kStagesWithoutCells =
-    kStageNormalMap | kStageTransmission | kStageClearcoat | kStageSheen | kStageAnisotropy;
+    kStageNormalMap | kStageTransmission | kStageClearcoat | kStageSheen | kStageAnisotropy | kStageDiffuseTransmission;
 
 /// What the light of a cell may be off by (light_cell.hpp), as light through the lobe, before its scale.
 struct CellTolerance {
@@ -71,6 +71,12 @@ struct AnisotropyPlan {
     float strength = 0, cosine = 1, sine = 0;  ///< of the direction from the tangent
 };
 
+/// Diffuse transmission as planned; used with kStageDiffuseTransmission.
+struct DiffuseTransmissionPlan {
+    float share = 0;
+    float color[3] = {1, 1, 1};
+};
+
 /// kReflectionShapes between two of its rows, at a material's one roughness.
 struct MirrorRow {
     bool at_one_roughness = false;           ///< false: the roughness differs from fragment to fragment, and the rest is not set
@@ -115,6 +121,7 @@ struct MaterialPlan {
     SheenPlan sheen;
     IridescencePlan iridescence;
     AnisotropyPlan anisotropy;
+    DiffuseTransmissionPlan diffuse_transmission;
 };
 
 /// True if the roughness may differ from fragment to fragment.
