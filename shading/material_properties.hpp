@@ -4,6 +4,7 @@
 #include "halflit/material.hpp"
 #include "halflit/shading.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iterator>
@@ -109,23 +110,32 @@ static_assert([] {
 /// True if the slot's texels are normals.
 [[nodiscard]] constexpr bool holds_normals(TextureSlot slot) { return info_of(slot).rule == MipRule::normal; }
 
-/// False if the texture cannot be seen because its layer (transmission, coat, sheen, film, brush) is absent.
-[[nodiscard]] inline bool shows(const Material& material, TextureSlot slot) {
-    switch (info_of(slot).stage) {
-        case kStageTransmission:
-            return material.transmits();
-        case kStageClearcoat:
-            return material.is_coated();
-        case kStageSheen:
-            return material.has_sheen();
-        case kStageIridescence:
-            return material.is_iridescent();
-        case kStageAnisotropy:
-            return material.is_anisotropic();
-        default:
-            return true;
+/// Row of the number that is 0 where a stage's layer (transmission, coat, sheen, film, brush) is absent: the first number of the extension
+/// that the first texture of the stage belongs to. kMaterialNumberCount: the stage belongs to no extension.
+[[nodiscard]] constexpr std::size_t layer_row(Stage stage) {
+    for (const TextureSlotInfo& info : kTextureSlotInfos) {
+        if (info.stage != stage) continue;
+        const std::string_view extension = extension_of(info.gltf);
+        std::size_t row = extension.empty() ? kMaterialNumberCount : 0;
+        while (row < kMaterialNumberCount && extension_of(kMaterialNumbers[row].gltf) != extension) ++row;
+        return row;
     }
+    return kMaterialNumberCount;
 }
+static_assert(kMaterialNumbers[layer_row(kStageSheen)].name == "sheen_color" && layer_row(kStageNormalMap) == kMaterialNumberCount);
+
+/// True if the layer that a stage draws is there, and may be seen.
+[[nodiscard]] inline bool has_layer(const Material& material, Stage stage) {
+    const std::size_t row = layer_row(stage);
+    if (row == kMaterialNumberCount) return true;
+    const MaterialNumber& number = kMaterialNumbers[row];
+    float values[4] = {};
+    number.get(material, values);
+    return std::any_of(values, values + number.count, [](float value) { return value > 0.0f; }) && !material.unlit &&
+           !material.shadow_catcher;
+}
+/// False if the texture cannot be seen because its layer is absent.
+[[nodiscard]] inline bool shows(const Material& material, TextureSlot slot) { return has_layer(material, info_of(slot).stage); }
 
 /// True if the slot's texels are directions in tangent space.
 [[nodiscard]] constexpr bool needs_tangents(TextureSlot slot) { return holds_normals(slot) || slot == TextureSlot::anisotropy; }

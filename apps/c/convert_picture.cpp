@@ -22,6 +22,7 @@ HALFLIT_ENDS_WITH(halflit_node, light);
 HALFLIT_ENDS_WITH(halflit_mesh, reserved);
 HALFLIT_ENDS_WITH(halflit_instance, place_rest);
 HALFLIT_ENDS_WITH(halflit_light, position_rest);
+HALFLIT_ENDS_WITH(halflit_material, reserved);
 HALFLIT_ENDS_WITH(halflit_environment_options, reserved);
 HALFLIT_ENDS_WITH(halflit_camera, place_rest);
 HALFLIT_ENDS_WITH(halflit_settings, reserved);

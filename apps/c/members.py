@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the members of materials and settings, with their documentation, into halflit.h and Python, from the tables
-(shading/material_properties.def, raster/settings_table.def) and the comments of the C++ headers; and the dicts of members that Python's
-type checkers know, from the classes of the package. Run it after a change to one of them:
+(shading/material_properties.def, raster/settings_table.def) and the comments of the C++ headers; the dicts of members that Python's
+type checkers know, from the classes of the package; and what the schema of `explain` and docs/formats.md list of materials. Run it after
+a change to one of them:
 
     apps/c/members.py            writes the files
     apps/c/members.py --check    writes nothing; exit code 1 if one of them would change
@@ -18,6 +19,8 @@ SOURCE = "shading/include/halflit/material.hpp"
 HEADER = "apps/c/include/halflit/halflit.h"
 PYTHON = "apps/python/halflit/_material.py"
 PYTHON_MEMBERS = "apps/python/halflit/_members.py"
+EXPLAIN = "docs/schema/explain-1.schema.json"
+FORMATS = "docs/formats.md"
 # TypedDict -> class whose members it has, its file, and those that are not in it.
 PYTHON_DICTS = {
     "LobeMembers": ("Lobe", PYTHON, ()),
@@ -60,7 +63,7 @@ def comments(source):
 
 
 def properties():
-    """(name, C++ type, default, documentation, least, greatest), numbers first."""
+    """(name, C++ type, default, documentation, least, greatest), in the table's order."""
     known, rows, table = comments(text_of(SOURCE)), [], text_of(TABLE)
     for kind, arguments in re.findall(r"^HALFLIT_(NUMBER|TEXTURE)\((.*)\)$", table, re.M):
         name, low, high = arguments.split(", ")[:3]
@@ -79,7 +82,14 @@ def c_members():
     for name, kind, default, doc, _, _ in properties():
         lines.append(f"    /// {doc}" + (f" ({default})" if default else ""))
         lines.append(f"    {kinds[kind].format(name)};")
-    return "\n".join(lines) + "\n"
+    fixed = 12  # four-byte words before the members
+    words = fixed + sum({"float": 1, "Vec3f": 3, "Vec4f": 4, "TextureUse": 13}[kind] for _, kind, *_ in properties())
+    return "\n".join([*lines, reserved(words)]) + "\n"
+
+
+def reserved(words):
+    """The last member of a struct that has so many words of four bytes before it: no padding, and always one that a later member may take."""
+    return f"    int32_t reserved[{1 + (words + 1) % 2}];  ///< 0"
 
 
 def python_docs():
@@ -200,6 +210,27 @@ def python_settings():
     return join(docs), join(annotations), join(table)
 
 
+def explain_schema(text):
+    """The schema of `explain`, with the factors and texture slots of a material."""
+    numbers = [(name, kind) for name, kind, *_ in properties() if kind != "TextureUse"]
+    schema = json.loads(text)
+    surface = next(one for one in schema["$defs"]["pixel"]["properties"]["surface"]["anyOf"] if "properties" in one)["properties"]
+    several = lambda count: {"type": "array", "minItems": count, "maxItems": count, "items": {"type": "number"}}
+    kinds = {"float": {"type": "number"}, "Vec3f": several(3), "Vec4f": several(4)}
+    surface["factors"]["properties"] = {name: kinds[kind] for name, kind in numbers}
+    surface["factors"]["required"] = [name for name, _ in numbers]
+    slots = [name.removesuffix("_texture") for name, kind, *_ in properties() if kind == "TextureUse"]
+    surface["textures"]["items"]["properties"]["slot"]["enum"] = slots
+    return json.dumps(schema, indent=2) + "\n"
+
+
+def formats_page(text):
+    """The page of formats, with the extensions of the table in its row of materials."""
+    row = re.search(r"^\| materials \| (.*) \|$", text, re.M)
+    listed = set(row.group(1).split(", ")) | set(re.findall(r"extensions/(\w+)/", text_of(TABLE)))
+    return text[: row.start(1)] + ", ".join(sorted(listed)) + text[row.end(1) :]
+
+
 def between(text, begin, end, made):
     """Replaces what lies between the line `begin` and the next line that begins with `end`."""
     head, rest = text.split(begin + "\n", 1)
@@ -214,8 +245,7 @@ def made():
     narrow = c_settings(False)
     fixed = 13  # four-byte words between the settings of eight and those of four bytes
     words = sum(int(count or 1) for count in re.findall(r" \w+(?:\[(\d+)\])?;$", narrow, re.M))
-    spare = 1 + (fixed + words + 1) % 2  # no padding, and always one that a later setting may take
-    narrow += f"    int32_t reserved[{spare}];  ///< 0\n"
+    narrow += reserved(fixed + words) + "\n"
     header = between(header, "    // Settings of four bytes: written by apps/c/members.py.", "} halflit_settings;", narrow)
     python = between(text_of(PYTHON), "        shadow_catcher: invisible but for the shadows on it (False)", '    """', python_docs())
     python = between(python, "    # Ranges and members: written by apps/c/members.py.", "    # Other members.", python_ranges() + python_annotations())
@@ -227,7 +257,8 @@ def made():
     for name, (kind, path, left_out) in PYTHON_DICTS.items():
         lines = python_dict(python if path == PYTHON else text_of(path), kind, left_out)
         members = re.sub(rf'(^class {name}\(.*?""".*?"""\n\n).*?(?=^\n|\Z)', lambda found: found.group(1) + lines, members, flags=re.S | re.M)
-    return {HEADER: header, PYTHON: python, PYTHON_MEMBERS: members, PYTHON_SETTINGS: options, PYTHON_TABLE: keywords}
+    return {HEADER: header, PYTHON: python, PYTHON_MEMBERS: members, PYTHON_SETTINGS: options, PYTHON_TABLE: keywords,
+            EXPLAIN: explain_schema(text_of(EXPLAIN)), FORMATS: formats_page(text_of(FORMATS))}
 
 
 def main():

@@ -6,6 +6,45 @@ namespace halflit::raster {
 
 namespace reference = shading::reference;
 
+namespace {
+
+/// Hidden shares of a block's lanes, lane after lane; empty where nothing is hidden.
+struct HiddenShares {
+    std::vector<reference::Hidden> lights, sky;
+};
+
+/// The lane's part of a list.
+std::span<const reference::Hidden> of_lane(const std::vector<reference::Hidden>& shares, int lane) {
+    const std::size_t count = shares.size() / shading::kBlockSize;
+    return std::span(shares).subspan(static_cast<std::size_t>(lane) * count, count);
+}
+
+HiddenShares hidden_shares(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, const shading::MaterialPlan& material,
+                           std::size_t light_count, const shading::FragmentBlock& block, int count) {
+    alignas(64) float core[shading::kBlockSize], excess[shading::kBlockSize];
+    HiddenShares out;
+    if (!plan.shadow_maps.empty()) out.lights.resize(light_count * shading::kBlockSize);
+    for (const shading::LightPlan& light : plan.lights) {
+        if (light.shadow_map < 0) continue;
+        kernels.hidden(plan, material, light, block, count, core, excess);
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane) {
+            reference::Hidden& share = out.lights[lane * light_count + static_cast<std::size_t>(light.source)];
+            share.hard = static_cast<double>(core[lane]);
+            share.soft = static_cast<double>(excess[lane]);
+        }
+    }
+    out.sky.resize(plan.sky.size() * shading::kBlockSize);
+    for (std::size_t i = 0; i < plan.sky.size(); ++i) {
+        if (plan.sky[i].shadow_map == -1) continue;
+        kernels.hidden(plan, material, plan.sky[i], block, count, core, excess);
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
+            out.sky[lane * plan.sky.size() + i] = {static_cast<double>(core[lane]), static_cast<double>(excess[lane]), 0.0};
+    }
+    return out;
+}
+
+}  // namespace
+
 std::shared_ptr<const reference::Irradiance> ReferenceShading::diffuse(const Lobe& lobe) {
     const auto same = [&](const Around& a) { return a.lobe == lobe; };
     const auto found = std::find_if(known_.begin(), known_.end(), same);
@@ -37,25 +76,16 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
                              shading::FragmentBlock& block, int count) const {
     const auto index = static_cast<std::size_t>(material);
     const shading::MaterialPlan& material_plan = plan.materials[index];
-    const std::size_t light_count = lights_.size();
-    std::vector<reference::Hidden> hidden(plan.shadow_maps.empty() ? 0 : light_count * shading::kBlockSize);
-    for (const shading::LightPlan& light : plan.lights) {
-        if (light.shadow_map < 0) continue;
-        alignas(64) float core[shading::kBlockSize], excess[shading::kBlockSize];
-        kernels.hidden(plan, material_plan, light, block, count, core, excess);
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane) {
-            reference::Hidden& share = hidden[lane * light_count + static_cast<std::size_t>(light.source)];
-            share.hard = static_cast<double>(core[lane]);
-            share.soft = static_cast<double>(excess[lane]);
-        }
-    }
-    std::vector<reference::Hidden> hidden_sky(plan.sky.size() * shading::kBlockSize);
-    for (std::size_t i = 0; i < plan.sky.size(); ++i) {
-        if (plan.sky[i].shadow_map == -1) continue;
-        alignas(64) float core[shading::kBlockSize], excess[shading::kBlockSize];
-        kernels.hidden(plan, material_plan, plan.sky[i], block, count, core, excess);
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
-            hidden_sky[lane * plan.sky.size() + i] = {static_cast<double>(core[lane]), static_cast<double>(excess[lane]), 0.0};
+    const HiddenShares near = hidden_shares(kernels, plan, material_plan, lights_.size(), block, count);
+    HiddenShares far;
+    if ((material_plan.stages & kStageDiffuseTransmission) != 0) {
+        shading::FragmentBlock turned = block;
+        for (int lane = 0; lane < count; ++lane)
+            for (int i = 0; i < 3; ++i) {
+                turned.lane[shading::kNormalX + i][lane] = -block.lane[shading::kNormalX + i][lane];
+                turned.lane[shading::kShadowX + i][lane] = 0.0f;
+            }
+        far = hidden_shares(kernels, plan, material_plan, lights_.size(), turned, count);
     }
     reference::Surroundings around;
     around.sky = plan.sky;
@@ -68,8 +98,8 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     // Rows of the block that the plan does not need hold what was there before.
     const shading::SlotMask filled = scene_->available_slots()[index] & material_plan.slots;
     for (int lane = 0; lane < count; ++lane) {
-        if (!hidden.empty()) around.hidden = std::span(hidden).subspan(static_cast<std::size_t>(lane) * light_count, light_count);
-        around.hidden_sky = std::span(hidden_sky).subspan(static_cast<std::size_t>(lane) * plan.sky.size(), plan.sky.size());
+        around.hidden = of_lane(near.lights, lane), around.hidden_sky = of_lane(near.sky, lane);
+        around.hidden_far = of_lane(far.lights, lane), around.hidden_sky_far = of_lane(far.sky, lane);
         const reference::Rgba color = reference::shade(frame_, scene_->material(index), filled, block, lane, around);
         block.red[lane] = static_cast<float>(color.r);
         block.green[lane] = static_cast<float>(color.g);

@@ -90,8 +90,8 @@ bool may_use_cells(const ShadingPlan& plan, const MaterialPlan& material, const 
     const auto has = [&](Stage stage) { return (material.stages & stage) != 0; };
     const auto casts_none = [](const LightPlan& light) { return light.shadow_map < 0; };
     const double n = static_cast<double>(material.lobe.power_minus_one) + 1.0;
-    if (material.ggx || !has(kStageLights) || has(kStageNormalMap) || material.alpha_mode == AlphaMode::blend || has(kStageTransmission) ||
-        has(kStageClearcoat) || has(kStageSheen) || has(kStageAnisotropy) || !(n >= 1.0 && n <= 3.0))
+    if (material.ggx || !has(kStageLights) || material.alpha_mode == AlphaMode::blend || (material.stages & kStagesWithoutCells) != 0 ||
+        !(n >= 1.0 && n <= 3.0))
         return false;
     if (s.albedo <= 0.0) return false;
     return std::count_if(plan.lights.begin(), plan.lights.end(), casts_none) >= kLeastCellLights;

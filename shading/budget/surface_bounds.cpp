@@ -267,6 +267,17 @@ Surface surface_of(const ShadingPlan& plan, const MaterialPlan& material, const 
             s.scattered = factor_of(share * filtered(texture, {0}), 1.0 - share);
         s.least_albedo = 0.0;
     }
+    if (has(kStageDiffuseTransmission)) {
+        // Light of both sides has weights that sum to no more than the brighter of the two colours, and the same errors on either side. An
+        // error of the share moves light from one side to the other.
+        const DiffuseTransmissionPlan& plan_of = material.diffuse_transmission;
+        s.albedo = std::max(s.albedo, static_cast<double>(std::max({plan_of.color[0], plan_of.color[1], plan_of.color[2]})));
+        if (const TexturePlan& texture = material.textures[TextureSlot::diffuse_transmission]; texture.data != nullptr)
+            s.scattered = {s.scattered.absolute + static_cast<double>(plan_of.share) * filtered(texture, {3}), kAnyShare};
+        if (const TexturePlan& texture = material.textures[TextureSlot::diffuse_transmission_color]; texture.data != nullptr)
+            s.scattered = {s.scattered.absolute + static_cast<double>(plan_of.share) * filtered(texture, {0, 1, 2}), kAnyShare};
+        s.least_albedo = 0.0;
+    }
     if (has(kStageClearcoat)) {
         const Surface coat = coat_surface(plan, material, facts);
         s.passed = passed_by_coat(material, coat);

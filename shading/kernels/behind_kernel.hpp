@@ -73,16 +73,17 @@ struct LookedThrough {
     V3 light;
     F clear;
 };
-/// Where the thickness is 0, the ray leaves where it entered, unbent.
+/// By 1 / index of refraction. Where the thickness is 0, the ray leaves where it entered, unbent.
 [[gnu::noinline]] static LookedThrough look_through(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
-                                                    const ShadeRows& rows, const shading::FragmentBlock& block, int lane) {
+                                                    const ShadeRows& rows, const shading::FragmentBlock& block, int lane,
+                                                    float inverse_ior) {
     const shading::BehindPlan& behind = frame.behind;
     const F none(0.0f), one(1.0f), least(shading::kMinRoughness);
     const V3 normal = load3(rows.normal, lane), to_eye = load3(rows.to_eye, lane);
     const F roughness = load(rows.roughness + lane), thickness = load(rows.thickness + lane);
     const F blur = clamp((roughness - least) * F(1.0f / (1.0f - shading::kMinRoughness)), none, one) * F(material.transmission.blur);
     // Snell's law at the surface. A body is taken for a ball: the ray turns as much again where it leaves.
-    const F ratio(material.transmission.inverse_ior), cosine = clamp(dot(normal, to_eye), none, one);
+    const F ratio(inverse_ior), cosine = clamp(dot(normal, to_eye), none, one);
     const F inside = vsqrt(vmax(one - (ratio * ratio) * (one - cosine * cosine), none));
     const F turn = ratio * cosine - inside;
     V3 bent{mad(normal.x, turn, vneg(ratio * to_eye.x)), mad(normal.y, turn, vneg(ratio * to_eye.y)),
@@ -109,6 +110,17 @@ struct LookedThrough {
         around = hemisphere(frame.ambient, out_of.y);
     }
     return {seen.light + around * (open * share), open * (one - share)};
+}
+
+/// Where the body disperses light, each channel goes its own way.
+HALFLIT_INLINE LookedThrough look_through(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, const ShadeRows& rows,
+                                          const shading::FragmentBlock& block, int lane) {
+    const float(&inverse_ior)[3] = material.transmission.inverse_ior;
+    LookedThrough seen = look_through(frame, material, rows, block, lane, inverse_ior[1]);
+    if (!material.transmission.disperses) return seen;
+    seen.light.x = look_through(frame, material, rows, block, lane, inverse_ior[0]).light.x;
+    seen.light.z = look_through(frame, material, rows, block, lane, inverse_ior[2]).light.z;
+    return seen;
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

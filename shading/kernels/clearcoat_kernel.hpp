@@ -116,10 +116,8 @@ HALFLIT_INLINE V3 coat_highlights(const shading::ShadingPlan& frame, const shadi
         }
         const F passed = one - coat.share * fresnel;
         dim_base(material, rows, lane, passed);
-        light = light * coat.share;
-        const bool sheen = has(material, kStageSheen);
-        store3(rows.layers, lane, sheen ? light + load3(rows.layers, lane) * passed : light);
-        store(rows.passed_layers + lane, sheen ? load(rows.passed_layers + lane) * passed : passed);
+        lay<kStageClearcoat>(material, rows, lane, light * coat.share, passed);
+        store(rows.passed_layers + lane, has(material, kStageSheen) ? load(rows.passed_layers + lane) * passed : passed);
         store(rows.passed_coat + lane, passed);
     }
 }

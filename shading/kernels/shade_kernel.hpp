@@ -22,7 +22,7 @@ HALFLIT_INLINE void shade_block(const shading::ShadingPlan& frame, const shading
     fetch_surfaces(material, block, count, true, rows);
     const bool prelit = has(material, kStagePrelit), lit = (material.stages & kSurfaceStages) != 0;
     if (lit && !prelit) add_light<kSpecular>(frame, material, lights, block, count, rows);
-    const bool layered = kSpecular && (material.stages & kLayerStages) != 0;
+    const bool layered = !prelit && (material.stages & kLayerStages) != 0;
     if (layered && has(material, kStageClearcoat)) dim_emission(rows, count);
     for (int lane = 0; lane < count; lane += kWidth) {
         V3 color = load3(rows.base, lane);
@@ -64,7 +64,7 @@ HALFLIT_INLINE void light_block(const shading::ShadingPlan& frame, const shading
         const F none(0.0f), full(1.0f);
         V3 offset = reflected<kSpecular>(material, rows, lane, {none, none, none});
         const V3 factor = reflected<kSpecular>(material, rows, lane, {full, full, full}) - offset;
-        if (kSpecular && (material.stages & kLayerStages) != 0) offset = offset + load3(rows.layers, lane);
+        if ((material.stages & kLayerStages) != 0) offset = offset + load3(rows.layers, lane);
         store(&block.lane[shading::kPosX][lane], factor.x);
         store(&block.lane[shading::kPosY][lane], factor.y);
         store(&block.lane[shading::kPosZ][lane], factor.z);

@@ -47,6 +47,25 @@ HALFLIT_INLINE void store3(ShadeRows::Row3& rows, int lane, V3 v) {
     store(rows[2] + lane, v.z);
 }
 
+/// Stages that add to the row `layers`, from the lowest layer to the highest.
+inline constexpr Stage kLayerOrder[] = {kStageDiffuseTransmission, kStageSheen, kStageClearcoat};
+inline constexpr std::uint32_t kLayerStages = [] {
+    std::uint32_t stages = 0;
+    for (const Stage stage : kLayerOrder) stages |= stage;
+    return stages;
+}();
+constexpr std::uint32_t layers_below(Stage stage) {
+    std::uint32_t stages = 0;
+    for (const Stage* below = kLayerOrder; *below != stage; ++below) stages |= *below;
+    return stages;
+}
+/// Adds a layer's light, and lets a share of that of the layers below it pass.
+template <Stage kStage>
+HALFLIT_INLINE void lay(const shading::MaterialPlan& material, ShadeRows& rows, int lane, V3 light, F passed) {
+    if ((material.stages & layers_below(kStage)) != 0) light = light + load3(rows.layers, lane) * passed;
+    store3(rows.layers, lane, light);
+}
+
 /// Takes a share from the light that reaches the base at a lane: what it reflects is linear in these rows.
 HALFLIT_INLINE void dim_base(const shading::MaterialPlan& material, ShadeRows& rows, int lane, F left) {
     const auto dim = [&](ShadeRows::Row3 & light) __attribute__((always_inline)) { store3(light, lane, load3(light, lane) * left); };

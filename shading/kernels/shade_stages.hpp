@@ -28,9 +28,6 @@ inline namespace HALFLIT_ISA_NAMESPACE {
 /// Stages that need a surface's direction and its metallic and rough parts.
 inline constexpr std::uint32_t kSurfaceStages = kStageLights | kStageAmbient | kStageTransmission | kStageClearcoat;
 
-/// Stages of layers above the base.
-inline constexpr std::uint32_t kLayerStages = kStageClearcoat | kStageSheen;
-
 /// Base colour, emission and alpha; `needs_color` is false where only light is asked for.
 static void fetch_surfaces(const shading::MaterialPlan& material, const shading::FragmentBlock& block, int count, bool needs_color,
                            ShadeRows& rows) {
@@ -202,6 +199,10 @@ HALFLIT_INLINE void add_light(const shading::ShadingPlan& frame, const shading::
         fetch_transmission(material, block, count, rows);
         dim_matt_light(material, count, rows);
     }
+    if (has(material, kStageDiffuseTransmission))
+        scatter_through<kSpecular>(
+            frame, material, lights, block, count,
+            rows, [&](V3 normal) __attribute__((always_inline)) { return surroundings_at(frame, material, normal); });
     if (has(material, kStageSheen)) add_sheen(frame, material, lights, block, count, rows);
     if (has(material, kStageClearcoat)) add_clearcoat(frame, material, lights, block, count, rows);
 }

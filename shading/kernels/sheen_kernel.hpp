@@ -130,7 +130,7 @@ HALFLIT_INLINE V3 sheen_radiance(const shading::ShadingPlan& frame, bool environ
         }
         const F passed = one - vmax(color.x, vmax(color.y, color.z)) * albedo;
         dim_base(material, rows, lane, passed);
-        store3(rows.layers, lane, light * color);
+        lay<kStageSheen>(material, rows, lane, light * color, passed);
         store(rows.passed_layers + lane, passed);
     }
 }

@@ -1,10 +1,12 @@
-// Light from behind that passes through a surface. These stages run only for materials that transmit.
+// Light from behind that passes through a surface, or is scattered by it. These stages run only for materials that let it.
 #pragma once
 
 #include "shading/kernels/behind_kernel.hpp"
 #include "shading/kernels/pow.hpp"
 #include "shading/kernels/reflection_kernel.hpp"
 #include "shading/kernels/shade_rows.hpp"
+#include "shading/kernels/sky_shadow_kernel.hpp"
+#include "shading/kernels/specular_color_kernel.hpp"
 #include "shading/kernels/surface_kernel.hpp"
 #include "shading/model/formulas.hpp"
 
@@ -47,6 +49,62 @@ inline namespace HALFLIT_ISA_NAMESPACE {
         const F left = F(1.0f) - load(rows.transmitted + lane);
         if (has(material, kStageLights)) store3(rows.diffuse, lane, load3(rows.diffuse, lane) * left);
         if (has(material, kStageAmbient)) store3(rows.ambient, lane, load3(rows.ambient, lane) * left);
+    }
+}
+
+/// KHR_materials_diffuse_transmission: a share of what is scattered is light of the far side, which is lit as this one is, by the same
+/// lobe. Takes it from the light of this side. What the far side gives is a layer of its own, as it does not have the base colour.
+/// around(normal): light of the surroundings.
+template <bool kSpecular, class Around>
+[[gnu::noinline]] static void scatter_through(const shading::ShadingPlan& frame, const shading::MaterialPlan& material,
+                                              shading::LightList lights, const shading::FragmentBlock& block, int count, ShadeRows& rows,
+                                              const Around& around) {
+    const F none(0.0f), one(1.0f);
+    const auto behind = [](V3 v) __attribute__((always_inline)) { return V3{vneg(v.x), vneg(v.y), vneg(v.z)}; };
+    for (int lane = 0; lane < count; lane += kWidth) {
+        TexelTaps taps;
+        F share(material.diffuse_transmission.share);
+        V3 color = broadcast(material.diffuse_transmission.color);
+        if (const auto& texture = material.textures[TextureSlot::diffuse_transmission]; texture.data != nullptr)
+            share = share * sample_texture(texture, block, lane, taps).a;
+        if (const auto& texture = material.textures[TextureSlot::diffuse_transmission_color]; texture.data != nullptr) {
+            const Sample texel = sample_texture(texture, block, lane, taps);
+            color = color * V3{texel.r, texel.g, texel.b};
+        }
+        // Shares of lights and surroundings that enter the surface.
+        F enters = one, sky_enters = one;
+        if constexpr (kSpecular) {
+            F f0(material.dielectric), weight = one;
+            if (has(material, kStageSpecularColor)) {
+                const V3 dielectric = load3(rows.dielectric, lane);
+                f0 = vmax(dielectric.x, vmax(dielectric.y, dielectric.z)), weight = load(rows.specular_weight + lane);
+            }
+            const F plastic = one - load(rows.metallic + lane);
+            enters = plastic * (one - f0);
+            sky_enters = has(material, kStageEnvironment) ? plastic * (one - SkyShare(material, rows, lane)(f0, weight)) : enters;
+        }
+        const F stays = one - share;
+        if (has(material, kStageTransmission)) share = share * (one - load(rows.transmitted + lane));
+        const V3 position = row3(block, shading::kPosX, lane), normal = behind(load3(rows.normal, lane));
+        const ShadowReceiver receiver{
+            frame, position, behind(load3(rows.surface, lane)), {material.shadow_fade_scale, material.shadow_turn_scale}};
+        V3 light{none, none, none};
+        if (has(material, kStageLights)) {
+            store3(rows.diffuse, lane, load3(rows.diffuse, lane) * stays);
+            light = sum_lobes(lights.lights, lights.count, material.lobe, receiver, position, normal).diffuse *
+                    (F(material.lobe.scale) * enters);
+        }
+        if (has(material, kStageAmbient)) {
+            store3(rows.ambient, lane, load3(rows.ambient, lane) * stays);
+            const F occlusion = load(rows.occlusion + lane);
+            V3 seen{occlusion, occlusion, occlusion};
+            if (!frame.sky.empty()) {
+                const V3 sky = sky_visibility<false>(receiver, material.lobe, normal, normal, one).diffuse;
+                seen = {vmin(sky.x, occlusion), vmin(sky.y, occlusion), vmin(sky.z, occlusion)};
+            }
+            light = light + around(normal) * seen * sky_enters;
+        }
+        lay<kStageDiffuseTransmission>(material, rows, lane, light * color * share, one);
     }
 }
 

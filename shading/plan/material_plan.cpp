@@ -105,7 +105,11 @@ void plan_look_through(const Material& material, bool rough, TransmissionPlan& p
     const double root =
         __builtin_sqrt(std::min(static_cast<double>(clamp_or_low(material.dielectric_reflectance, 0.0f, 1.0f)), kMostReflectance));
     const double index = (1.0 + root) / (1.0 - root);
-    plan.inverse_ior = static_cast<float>(1.0 / index);
+    // KHR_materials_dispersion: the index of red is as much lower as that of blue is higher. No index is below that of air.
+    const double dispersion = clamp_or_low(material.dispersion, 0.0f, kMostScale);
+    const double spread = (index - 1.0) * std::min(0.025 * dispersion, 1.0);
+    for (int c = 0; c < 3; ++c) plan.inverse_ior[c] = static_cast<float>(1.0 / (index + spread * (c - 1)));
+    plan.disperses = spread > 0.0 && material.thickness > 0.0f;
     plan.blur = static_cast<float>(std::min(1.0, 2.0 * (index - 1.0)));
     plan.thickness = clamp_or_low(material.thickness, 0.0f, kMostNumber);
     plan.looked_through = plan.blur > 0.0f && (rough || plan.thickness > 0.0f);
@@ -239,6 +243,15 @@ MaterialPlan plan_material(const Material& material, std::span<const Texture> te
         const SinCos turn = sin_cos(static_cast<double>(clamp_or_low(material.anisotropy_rotation_rad, -kMostScale, kMostScale)));
         plan.anisotropy.sine = static_cast<float>(turn.sin), plan.anisotropy.cosine = static_cast<float>(turn.cos);
         use_texture(true, TextureSlot::anisotropy);
+    }
+    if ((plan.stages & (kStageLights | kStageAmbient)) != 0 && has_layer(material, kStageDiffuseTransmission)) {
+        plan.stages |= kStageDiffuseTransmission;
+        plan.diffuse_transmission.share = clamp_or_low(material.diffuse_transmission, 0.0f, 1.0f);
+        const Vec3f color = material.diffuse_transmission_color;
+        const float channels[] = {color.x, color.y, color.z};
+        for (int c = 0; c < 3; ++c) plan.diffuse_transmission.color[c] = clamp_or_low(channels[c], 0.0f, 1.0f);
+        use_texture(true, TextureSlot::diffuse_transmission);
+        use_texture(true, TextureSlot::diffuse_transmission_color);
     }
     plan.normal_roughness = kinds.specular && loses_normals(plan.textures[TextureSlot::normal]);
     if (gradients) plan.stages |= kStageGradients;

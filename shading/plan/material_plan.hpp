@@ -22,6 +22,10 @@ struct SpecularCurve {
     float least = 1;  ///< least cos^2 with a highlight; below it there is none
 };
 
+/// Stages of materials whose light is never fitted over cells: it does not follow from the mesh's normals alone, or is seen through others.
+inline constexpr std::uint32_t kStagesWithoutCells =
+    kStageNormalMap | kStageTransmission | kStageClearcoat | kStageSheen | kStageAnisotropy | kStageDiffuseTransmission;
+
 /// What the light of a cell may be off by (light_cell.hpp), as light through the lobe, before its scale.
 struct CellTolerance {
     float relative = 0, absolute = 0;  ///< share of the light, and light; 0: this material's light is never fitted
@@ -38,9 +42,10 @@ struct TransmissionPlan {
     float absorbed[3] = {0, 0, 0};  ///< -log2 of it where the texture of thickness is 1
     /// Light from behind is blurred or bent: it comes from ShadingPlan::behind and the surroundings.
     bool looked_through = false;
-    float inverse_ior = 1;  ///< 1 / index of refraction
-    float blur = 0;         ///< per roughness: min(1, 2 (index - 1))
-    float thickness = 0;    ///< of the body below, world units
+    bool disperses = false;            ///< light of different colours is bent differently
+    float inverse_ior[3] = {1, 1, 1};  ///< 1 / index of refraction, by channel
+    float blur = 0;                    ///< per roughness: min(1, 2 (index - 1))
+    float thickness = 0;               ///< of the body below, world units
 };
 
 /// A coat as planned; used with kStageClearcoat.
@@ -64,6 +69,12 @@ struct IridescencePlan {
 /// A brushed surface as planned; used with kStageAnisotropy.
 struct AnisotropyPlan {
     float strength = 0, cosine = 1, sine = 0;  ///< of the direction from the tangent
+};
+
+/// Diffuse transmission as planned; used with kStageDiffuseTransmission.
+struct DiffuseTransmissionPlan {
+    float share = 0;
+    float color[3] = {1, 1, 1};
 };
 
 /// kReflectionShapes between two of its rows, at a material's one roughness.
@@ -110,6 +121,7 @@ struct MaterialPlan {
     SheenPlan sheen;
     IridescencePlan iridescence;
     AnisotropyPlan anisotropy;
+    DiffuseTransmissionPlan diffuse_transmission;
 };
 
 /// True if the roughness may differ from fragment to fragment.

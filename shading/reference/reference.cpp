@@ -502,6 +502,12 @@ double transmitted(const FrameInputs& frame, const Material& material, SlotMask 
            material_texture(frame, material.textures[TextureSlot::transmission], available, block, lane, {1, 1, 1, 1}).r;
 }
 
+/// Share of the light that is scattered which leaves on the far side.
+double scattered_through(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane) {
+    return std::clamp(double{material.diffuse_transmission}, 0.0, 1.0) *
+           material_texture(frame, material.textures[TextureSlot::diffuse_transmission], available, block, lane, {1, 1, 1, 1}).a;
+}
+
 /// F0 of a surface below a thin film, by the formulas of KHR_materials_iridescence: indices of refraction, phases, and Schlick's curve
 /// turned around. The phase belongs to the channel, not to X, Y or Z.
 double below_film(double f0, double ior, double thickness_nm, double n_dot_v, int channel) {
@@ -576,7 +582,8 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
     surface.occlusion = 1.0 + double{material.occlusion_strength} * (occlusion.r - 1.0);
     const Vec3d position = row3(block, kPosX, lane);
     surface.to_eye = frame.orthographic ? scale(to_double(frame.view_direction_ws), -1) : unit(to_double(frame.eye_ws) - position);
-    const double scattered = 1.0 - transmitted(frame, material, available, block, lane);
+    const double scattered =
+        (1.0 - transmitted(frame, material, available, block, lane)) * (1.0 - scattered_through(frame, material, available, block, lane));
     surface.albedo = scale(surface.base, scattered);
     if (frame.options.specular != SpecularModel::none) {
         const double dielectric = std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0);
@@ -596,6 +603,37 @@ Surface surface_of(const FrameInputs& frame, const Material& material, SlotMask 
         if (material.is_iridescent()) add_film(frame, material, available, block, lane, surface);
     }
     return surface;
+}
+
+/// Light of the far side that a surface scatters to this one: what a surface turned around would scatter, of the far side's colour.
+Vec3d light_through(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
+                    const Surface& surface, const Surroundings& around) {
+    const Vec3f factor = material.diffuse_transmission_color;
+    const Rgba texel =
+        material_texture(frame, material.textures[TextureSlot::diffuse_transmission_color], available, block, lane, {1, 1, 1, 1});
+    const double share = scattered_through(frame, material, available, block, lane) *
+                         (1 - transmitted(frame, material, available, block, lane)) * (1 - surface.metallic);
+    const auto channel = [&](float held, double texture) { return std::clamp(double{held}, 0.0, 1.0) * texture * share; };
+    const Vec3d color{channel(factor.x, texel.r), channel(factor.y, texel.g), channel(factor.z, texel.b)};
+    const bool specular = frame.options.specular != SpecularModel::none;
+    double mirrored = specular ? surface.largest_dielectric() : 0.0, mirrored_sky = mirrored;
+    if (specular && around.diffuse != nullptr) {
+        const MirrorTable at(surface.roughness, dot(surface.normal, surface.to_eye));
+        const double a = at(&ReflectionShape::a), b = at(&ReflectionShape::b);
+        mirrored_sky = (a * mirrored + b * surface.weight) * (1 + mirrored * (1 / (a + b) - 1));
+    }
+    FrameInputs lights = frame, sky = frame;
+    lights.options.specular = sky.options.specular = SpecularModel::none;
+    lights.ambient = {}, sky.lights = {};
+    Surroundings far = around, dark;
+    far.hidden = dark.hidden = around.hidden_far, far.hidden_sky = around.hidden_sky_far;
+    Surface turned = surface;
+    turned.normal = scale(surface.normal, -1);
+    const Vec3d position = row3(block, kPosX, lane);
+    turned.albedo = scale(color, 1 - mirrored);
+    const Vec3d of_lights = lit(lights, material, turned, position, dark);
+    turned.albedo = scale(color, 1 - mirrored_sky);
+    return of_lights + lit(sky, material, turned, position, far);
 }
 
 /// Sheen at a lane: light that it adds, and the share of the base's light that it leaves.
@@ -796,10 +834,10 @@ struct Through {
     Vec3d light{0, 0, 0};
     double clear = 1;
 };
-Through look_through(const FrameInputs& frame, const Material& material, const FragmentBlock& block, int lane, const Surface& surface,
-                     double thickness, const Surroundings& around) {
-    const double root = std::sqrt(std::min(std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0), 0.9));
-    const double index = (1 + root) / (1 - root), wide = std::min(1.0, 2 * (index - 1));
+/// By the index of refraction of one colour; index: that of the middle one.
+Through look_through_at(double own_index, double index, const FrameInputs& frame, const Material& material, const FragmentBlock& block,
+                        int lane, const Surface& surface, double thickness, const Surroundings& around) {
+    const double wide = std::min(1.0, 2 * (index - 1));
     if (around.behind == nullptr || !material.transmits() || frame.options.specular == SpecularModel::none || !(wide > 0) ||
         !(material.roughness > kMinRoughness || material.thickness > 0.0f))
         return {};
@@ -809,7 +847,8 @@ Through look_through(const FrameInputs& frame, const Material& material, const F
     Vec3d bent = scale(surface.to_eye, -1);
     if (thick) {
         const double cosine = std::clamp(dot(surface.normal, surface.to_eye), 0.0, 1.0);
-        bent = scale(bent, 1 / index) + scale(surface.normal, cosine / index - std::sqrt(1 - (1 - cosine * cosine) / (index * index)));
+        bent = scale(bent, 1 / own_index) +
+               scale(surface.normal, cosine / own_index - std::sqrt(1 - (1 - cosine * cosine) / (own_index * own_index)));
     }
     const Vec3d out_of = surface.to_eye - scale(bent, 2 * dot(bent, surface.to_eye));
     const Vec3d exit = row3(block, kPosX, lane) + scale(bent, thick ? thickness : 0.0);
@@ -832,6 +871,19 @@ Through look_through(const FrameInputs& frame, const Material& material, const F
     return {surfaces + scale(surroundings, open * share), open * (1 - share)};
 }
 
+Through look_through(const FrameInputs& frame, const Material& material, const FragmentBlock& block, int lane, const Surface& surface,
+                     double thickness, const Surroundings& around) {
+    const double root = std::sqrt(std::min(std::clamp(double{material.dielectric_reflectance}, 0.0, 1.0), 0.9));
+    const double index = (1 + root) / (1 - root);
+    const double half_spread = std::min(index - 1, (index - 1) * 0.025 * held(double{material.dispersion}, 0.0, 1e6));
+    const auto through = [&](double own_index) {
+        return look_through_at(own_index, index, frame, material, block, lane, surface, thickness, around);
+    };
+    Through out = through(index);
+    if (half_spread > 0) out.light.x = through(index - half_spread).light.x, out.light.z = through(index + half_spread).light.z;
+    return out;
+}
+
 }  // namespace
 
 Rgba shade(const FrameInputs& frame, const Material& material, SlotMask available, const FragmentBlock& block, int lane,
@@ -845,6 +897,7 @@ Rgba shade(const FrameInputs& frame, const Material& material, SlotMask availabl
     const Rgba glow = material_texture(frame, material.textures[TextureSlot::emissive], available, block, lane, {1, 1, 1, 1});
     const Vec3d position = row3(block, kPosX, lane);
     Vec3d color = lit(frame, material, surface, position, around);
+    if (material.diffuse_transmission > 0.0f) color = color + light_through(frame, material, available, block, lane, surface, around);
     if (has_sheen(frame, material)) {
         const Fibres sheen = sheen_of(frame, material, available, block, lane, surface, around);
         color = scale(color, sheen.left) + sheen.light;

@@ -54,8 +54,9 @@ struct Surroundings {
     /// Sky shadows: the lights that stand for the surroundings, and their hidden shares; empty: there are none.
     std::span<const LightPlan> sky{};
     std::span<const Hidden> hidden_sky{};
-    double sky_focus = 0;                   ///< ShadingPlan::sky_focus
-    const SkyGridPlan* sky_grid = nullptr;  ///< hides it, in place of maps
+    std::span<const Hidden> hidden_far{}, hidden_sky_far{};  ///< the same for the far side; of materials with diffuse transmission
+    double sky_focus = 0;                                    ///< ShadingPlan::sky_focus
+    const SkyGridPlan* sky_grid = nullptr;                   ///< hides it, in place of maps
     /// What is seen through glass that blurs or bends light; null: the light behind is kept as it is.
     const BehindPlan* behind = nullptr;
 };

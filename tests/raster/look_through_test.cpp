@@ -15,8 +15,8 @@ Material rough_glass(float roughness, float thickness = 0) {
     return material;
 }
 
-/// Red of the middle row of a picture in which a pane lies before black and white halves that meet at `edge`.
-std::vector<double> row_before_edge(const Material& material, double tilt, float edge, int width = 256) {
+/// A channel of the middle row of a picture in which a pane lies before black and white halves that meet at `edge`.
+std::vector<double> row_before_edge(const Material& material, double tilt, float edge, int width = 256, int channel = 0) {
     Scene scene;
     add_pane(scene, panel({0, 0, 0, 1}), -5, 0, -20, edge);
     add_pane(scene, panel({1, 1, 1, 1}), -5, 0, edge, 20);
@@ -24,9 +24,9 @@ std::vector<double> row_before_edge(const Material& material, double tilt, float
     Settings settings;
     settings.samples = 1;
     const Picture picture = draw(scene, settings, width, 32);
-    std::vector<double> red;
-    for (int x = 0; x < width; ++x) red.push_back(double{picture.linear[static_cast<std::size_t>(4 * (16 * width + x))]});
-    return red;
+    std::vector<double> row;
+    for (int x = 0; x < width; ++x) row.push_back(double{picture.linear[static_cast<std::size_t>(4 * (16 * width + x) + channel)]});
+    return row;
 }
 
 /// Where a row first exceeds a share of its last value.
@@ -44,8 +44,9 @@ Scene balls_before_panels(Random& random) {
     }
     for (int i = 0; i < 5; ++i) {
         const float left = random.real32(-1.5, 0.5);
-        add_pane(scene, rough_glass(random.real32(0, 0.8), random.index(2) == 0 ? 0.0f : 1.0f), random.real32(0, 4), random.real(0, 1),
-                 left, left + 0.6f);
+        Material material = rough_glass(random.real32(0, 0.8), random.index(2) == 0 ? 0.0f : 1.0f);
+        material.dispersion = random.index(2) == 0 ? 0.0f : random.real32(0, 8);
+        add_pane(scene, material, random.real32(0, 4), random.real(0, 1), left, left + 0.6f);
     }
     return scene;
 }
@@ -92,16 +93,36 @@ TEST_CASE("look through: a body bends what is behind it by Snell's law and its t
     Random random(92);
     for (int round = 0; round < 12; ++round) {
         Material material = rough_glass(0, random.real32(0.2, 1.5));
-        const double index = random.real(1.2, 2.2), tilt = random.real(-1.2, 1.2);
+        const double index = random.real(1.2, 2.2), tilt = random.real(-1.2, 1.2), abbe = random.real(0.6, 40);
         material.dielectric_reflectance = static_cast<float>(std::pow((index - 1) / (index + 1), 2));
-        // The ray goes along -z; the normal is turned about y, and so is the ray within the body, towards the normal's other side.
-        const double inside = std::asin(std::sin(std::abs(tilt)) / index), turned = std::abs(tilt) - inside;
-        const double shift = (tilt > 0 ? -1 : 1) * double{material.thickness} * std::sin(turned);
-        const std::vector<double> row = row_before_edge(material, tilt, 0, kWidth);
-        INFO("tilt " << tilt << ", index " << index << ", thickness " << material.thickness);
-        // A pixel whose ray leaves at the edge shows it.
-        CHECK(std::abs(first_above(row, 0.5) - (kWidth / 2 - 16 * shift)) <= 1.0);
+        if (round % 3 != 0) material.dispersion = static_cast<float>(20 / abbe);
+        for (int channel = 0; channel < 3; ++channel) {
+            // Abbe's number is (index - 1) / (index of blue - index of red).
+            const double own = std::max(1.0, index + (material.dispersion > 0.0f ? (channel - 1) * 0.5 * (index - 1) / abbe : 0.0));
+            // The ray goes along -z; the normal is turned about y, and so is the ray within the body, towards the normal's other side.
+            const double inside = std::asin(std::sin(std::abs(tilt)) / own), turned = std::abs(tilt) - inside;
+            const double shift = (tilt > 0 ? -1 : 1) * double{material.thickness} * std::sin(turned);
+            const std::vector<double> row = row_before_edge(material, tilt, 0, kWidth, channel);
+            INFO("tilt " << tilt << ", index " << own << ", thickness " << material.thickness);
+            // A pixel whose ray leaves at the edge shows it.
+            CHECK(std::abs(first_above(row, 0.5) - (kWidth / 2 - 16 * shift)) <= 1.0);
+        }
     }
+}
+
+TEST_CASE("look through: a body disperses light only where it has a thickness", "[raster][blend]") {
+    const auto picture = [](float roughness, float thickness, float dispersion) {
+        Scene scene;
+        scene.ambient = {{0.8f, 0.7f, 0.6f}, {0.2f, 0.2f, 0.2f}};
+        Material material = rough_glass(roughness, thickness);
+        material.dispersion = dispersion;
+        add_pane(scene, panel({0, 0, 0, 1}), -5, 0, -20, 0);
+        add_pane(scene, panel({1, 1, 1, 1}), -5, 0, 0, 20);
+        add_pane(scene, material, 0, 0.7);
+        return draw(scene, {}, 32, 32);
+    };
+    CHECK(picture(0.4f, 0, 3) == picture(0.4f, 0, 0));
+    CHECK_FALSE(picture(0.4f, 1, 3) == picture(0.4f, 1, 0));
 }
 
 TEST_CASE("look through: where there is no surface, rough glass shows the surroundings and clear glass the background", "[raster][blend]") {

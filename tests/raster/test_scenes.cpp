@@ -427,6 +427,77 @@ NamedScene brushed_scene() {
     return out;
 }
 
+NamedScene prisms_scene() {
+    NamedScene out{"prisms", {}, camera_at({-0.3f, 1.5f, 4.0f}, {0, 0.1f, 0}, 0.75f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    const int checks = add_texture(s, 32, 32, ColorSpace::srgb, 28, false), depths = add_texture(s, 32, 32, ColorSpace::linear, 29, false);
+    const auto place = balls_of(s);
+
+    Material crystal;
+    crystal.metallic = 0, crystal.roughness = 0;
+    crystal.transmission = 1, crystal.thickness = 0.8f, crystal.dispersion = 6;
+    place(crystal, 0, 0.9f);
+    Material diamond = crystal;
+    diamond.dielectric_reflectance = 0.17f, diamond.dispersion = 1;
+    diamond.base_color = {0.8f, 0.9f, 1, 1};
+    place(diamond, -1.2f, 0.4f);
+    Material frosted = crystal;
+    frosted.roughness = 0.3f, frosted.double_sided = true;
+    frosted.textures[TextureSlot::thickness].texture = frosted.textures[TextureSlot::transmission].texture = depths;
+    frosted.attenuation_color = {0.9f, 0.6f, 0.3f}, frosted.attenuation_distance = 0.5f;
+    place(frosted, 1.2f, 0.4f);
+    Material floor;
+    floor.metallic = 0;
+    floor.textures[TextureSlot::base_color].texture = checks;
+    const int checked = add_material(s, floor);
+    add(s, make_plane(7, 3), checked, translation({0, -0.55f, 0}));
+    add(s, make_box({3, 1, 0.1f}), checked, translation({0, 0.2f, -1}));
+    return out;
+}
+
+NamedScene leaves_scene() {
+    NamedScene out{"leaves", {}, camera_at({0.2f, 1.4f, 4.0f}, {0, 0.2f, 0}, 0.75f, 0.05f)};
+    Scene& s = out.scene;
+    add_lights(s);
+    s.lights[0].direction_ws = {0.2f, -0.7f, 0.6f};
+    s.lights[1].position_ws = {1.3f, 0.1f, 0.3f};
+    const int veins = add_texture(s, 32, 32, ColorSpace::srgb, 30, false), bumps = add_texture(s, 48, 48, ColorSpace::linear, 31, true);
+    const auto place = balls_of(s);
+    Mesh sheet = make_plane(0.6f, 4);
+    generate_tangents(sheet, 0);
+    const auto hang = [&](const Material& material, float x, float y, float z, float turn) {
+        add(s, sheet, add_material(s, material), translation({x, y, z}) * turned(0.7f, turn, 0, 0.7f));
+    };
+
+    Material leaf;
+    leaf.base_color = {0.1f, 0.3f, 0.05f, 1};
+    leaf.metallic = 0, leaf.roughness = 0.5f, leaf.double_sided = true;
+    leaf.diffuse_transmission = 0.6f, leaf.diffuse_transmission_color = {0.5f, 0.8f, 0.1f};
+    hang(leaf, -1.2f, 0.3f, 0.2f, 0.1f);
+    Material autumn = leaf;
+    autumn.textures[TextureSlot::diffuse_transmission].texture = autumn.textures[TextureSlot::diffuse_transmission_color].texture = veins;
+    autumn.textures[TextureSlot::normal].texture = bumps;
+    autumn.alpha_mode = AlphaMode::mask, autumn.alpha_cutoff = 0.2f;
+    hang(autumn, 0, 0.3f, -0.6f, -0.2f);
+    Material waxed = leaf;
+    waxed.clearcoat = 0.8f, waxed.clearcoat_roughness = 0.2f;
+    waxed.sheen_color = {0.3f, 0.3f, 0.4f}, waxed.sheen_roughness = 0.5f;
+    waxed.transmission = 0.3f;
+    waxed.textures[TextureSlot::occlusion].texture = veins;
+    hang(waxed, 0.1f, 0.2f, 0.8f, 0.4f);
+    // A lampshade about the lamp.
+    Material shade = leaf;
+    shade.base_color = {0.8f, 0.75f, 0.6f, 1};
+    shade.diffuse_transmission_color = {1, 0.7f, 0.4f};
+    shade.specular_color = {1, 0.5f, 0.5f}, shade.iridescence = 0.4f;
+    place(shade, 1.3f, 0.3f);
+    Material paper = leaf;
+    paper.base_color = {0.8f, 0.8f, 0.8f, 1}, paper.diffuse_transmission = 1, paper.metallic = 0.3f;
+    add(s, make_plane(7, 3), add_material(s, paper), translation({0, -0.55f, 0}));
+    return out;
+}
+
 std::vector<NamedScene> all_scenes() {
     std::vector<NamedScene> scenes;
     Scene demo = demo_scene();
@@ -441,6 +512,8 @@ std::vector<NamedScene> all_scenes() {
     scenes.push_back(fabrics_scene());
     scenes.push_back(films_scene());
     scenes.push_back(brushed_scene());
+    scenes.push_back(prisms_scene());
+    scenes.push_back(leaves_scene());
     return scenes;
 }
 

@@ -89,11 +89,13 @@ inline Material make_material(FloatMaker& make) {
     for (TextureUse& use : material.textures)
         if (make.below(2) == 0) use = make_use(make);
     // Each kind of layer is absent from half of the materials.
-    if (make.below(2) == 0) material.transmission = 0;
-    if (make.below(2) == 0) material.clearcoat = 0;
-    if (make.below(2) == 0) material.sheen_color = {0, 0, 0};
-    if (make.below(2) == 0) material.iridescence = 0;
-    if (make.below(2) == 0) material.anisotropy_strength = 0;
+    for (unsigned bit = 0; bit < kStageCount; ++bit) {
+        const std::size_t row = layer_row(static_cast<Stage>(1u << bit));
+        if (row == kMaterialNumberCount) continue;
+        float values[4];
+        kMaterialNumbers[row].get(Material{}, values);
+        if (values[0] == 0.0f && make.below(2) == 0) kMaterialNumbers[row].set(material, values);
+    }
     if (make.below(3) != 0) {
         material.specular = 1, material.specular_color = {1, 1, 1};
         material.textures[TextureSlot::specular] = material.textures[TextureSlot::specular_color] = {};

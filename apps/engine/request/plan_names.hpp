@@ -9,28 +9,6 @@
 
 namespace halflit::engine {
 
-/// Indexed by the bit of Stage.
-inline constexpr std::string_view kStageNames[kStageCount] = {"base colour texture",
-                                                              "vertex colour",
-                                                              "normal map",
-                                                              "metallic roughness texture",
-                                                              "occlusion texture",
-                                                              "emissive texture",
-                                                              "lights",
-                                                              "specular",
-                                                              "ambient",
-                                                              "unlit",
-                                                              "texture gradients",
-                                                              "light at vertices or triangles",
-                                                              "environment",
-                                                              "transmission",
-                                                              "specular colour",
-                                                              "shadow catcher",
-                                                              "clearcoat",
-                                                              "sheen",
-                                                              "iridescence",
-                                                              "anisotropy"};
-
 constexpr std::string_view alpha_mode_name(AlphaMode mode) {
     constexpr std::string_view kNames[] = {"opaque", "mask", "blend"};
     return kNames[static_cast<std::size_t>(mode)];

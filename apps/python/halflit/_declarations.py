@@ -38,7 +38,9 @@ STRUCTS = {
         transmission_texture; halflit_texture_use thickness_texture; halflit_texture_use clearcoat_texture; halflit_texture_use
         clearcoat_roughness_texture; halflit_texture_use clearcoat_normal_texture; halflit_texture_use sheen_color_texture;
         halflit_texture_use sheen_roughness_texture; halflit_texture_use iridescence_texture; halflit_texture_use
-        iridescence_thickness_texture; halflit_texture_use anisotropy_texture;
+        iridescence_thickness_texture; halflit_texture_use anisotropy_texture; float dispersion; float diffuse_transmission; float
+        diffuse_transmission_color[3]; halflit_texture_use diffuse_transmission_texture; halflit_texture_use
+        diffuse_transmission_color_texture; int32_t reserved[2];
 """,
     "halflit_mesh": """
         size_t size; const char* name; const float* positions; const float* normals; const float* tangents; const float* uv0;

@@ -155,6 +155,11 @@ class Material(Record):
         iridescence_texture: linear: red
         iridescence_thickness_texture: linear: green, from the least thickness to the greatest
         anisotropy_texture: linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
+        dispersion: spread of the indices of refraction of red and blue, from 0: 20 / Abbe's number (0)
+        diffuse_transmission: share of scattered light that leaves on the far side, in [0, 1] (0)
+        diffuse_transmission_color: of that light, in place of the base colour, linear, in [0, 1] (1, 1, 1)
+        diffuse_transmission_texture: linear: alpha
+        diffuse_transmission_color_texture: sRGB
     """
 
     _kind, _choices = "material", {"alpha_mode": "ALPHA"}
@@ -168,6 +173,7 @@ class Material(Record):
         "specular_color": math.inf,
         "attenuation_color": 1.0,
         "sheen_color": 1.0,
+        "diffuse_transmission_color": 1.0,
     }
     _ranges = {
         "metallic": (0.0, 1.0),
@@ -187,6 +193,8 @@ class Material(Record):
         "iridescence_thickness_min_nm": (0.0, math.inf),
         "iridescence_thickness_max_nm": (0.0, math.inf),
         "anisotropy_strength": (0.0, 1.0),
+        "dispersion": (0.0, math.inf),
+        "diffuse_transmission": (0.0, 1.0),
     }
     base_color: Color
     metallic: float
@@ -230,6 +238,11 @@ class Material(Record):
     iridescence_texture: Union[TextureUse, int]
     iridescence_thickness_texture: Union[TextureUse, int]
     anisotropy_texture: Union[TextureUse, int]
+    dispersion: float
+    diffuse_transmission: float
+    diffuse_transmission_color: Color
+    diffuse_transmission_texture: Union[TextureUse, int]
+    diffuse_transmission_color_texture: Union[TextureUse, int]
     # Other members.
     name: str
     alpha_mode: AlphaMode

@@ -116,6 +116,11 @@ class MaterialMembers(TypedDict, total=False):
     iridescence_texture: TextureOf
     iridescence_thickness_texture: TextureOf
     anisotropy_texture: TextureOf
+    dispersion: float
+    diffuse_transmission: float
+    diffuse_transmission_color: Color
+    diffuse_transmission_texture: TextureOf
+    diffuse_transmission_color_texture: TextureOf
     name: str
     alpha_mode: AlphaMode
     double_sided: bool

@@ -20,26 +20,28 @@ enum class AlphaMode : std::uint8_t {
 
 /// Places of a material where a texture may be used, with the channels that are read.
 enum class TextureSlot : std::uint8_t {
-    base_color,             ///< sRGB, alpha linear
-    metallic_roughness,     ///< linear: green is roughness, blue metallic
-    normal,                 ///< linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
-    occlusion,              ///< linear: red
-    emissive,               ///< sRGB
-    specular,               ///< linear: alpha
-    specular_color,         ///< sRGB
-    transmission,           ///< linear: red
-    thickness,              ///< linear: green
-    clearcoat,              ///< linear: red
-    clearcoat_roughness,    ///< linear: green
-    clearcoat_normal,       ///< linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
-    sheen_color,            ///< sRGB
-    sheen_roughness,        ///< linear: alpha
-    iridescence,            ///< linear: red
-    iridescence_thickness,  ///< linear: green, from the least thickness to the greatest
-    anisotropy              ///< linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
+    base_color,                 ///< sRGB, alpha linear
+    metallic_roughness,         ///< linear: green is roughness, blue metallic
+    normal,                     ///< linear, in tangent space: (2c - 1) * (normal_scale, normal_scale, 1)
+    occlusion,                  ///< linear: red
+    emissive,                   ///< sRGB
+    specular,                   ///< linear: alpha
+    specular_color,             ///< sRGB
+    transmission,               ///< linear: red
+    thickness,                  ///< linear: green
+    clearcoat,                  ///< linear: red
+    clearcoat_roughness,        ///< linear: green
+    clearcoat_normal,           ///< linear, in tangent space; without it the coat has the mesh's normals, not the base's normal map
+    sheen_color,                ///< sRGB
+    sheen_roughness,            ///< linear: alpha
+    iridescence,                ///< linear: red
+    iridescence_thickness,      ///< linear: green, from the least thickness to the greatest
+    anisotropy,                 ///< linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
+    diffuse_transmission,       ///< linear: alpha
+    diffuse_transmission_color  ///< sRGB
 };
 /// Number of slots.
-inline constexpr int kTextureSlots = 17;
+inline constexpr int kTextureSlots = 19;
 
 /// A value for each slot.
 template <class T>
@@ -77,13 +79,14 @@ struct Material {
     float specular = 1;             ///< weight of the specular reflection of dielectrics, in [0, 1]
     Vec3f specular_color{1, 1, 1};  ///< factor on F0 of dielectrics, linear, from 0; F0 is at most 1
 
-    // KHR_materials_transmission and KHR_materials_volume: light that passes through a surface without being scattered, tinted by the base
-    // colour and by what absorbs it on its way, blurred by the roughness, and bent where there is thickness. A surface that transmits is
-    // drawn as a transparent layer, and casts no shadow, whatever its alpha mode.
+    // KHR_materials_transmission, KHR_materials_volume and KHR_materials_dispersion: light that passes through a surface without being
+    // scattered, tinted by the base colour and by what absorbs it on its way, blurred by the roughness, and bent where there is thickness.
+    // A surface that transmits is drawn as a transparent layer, and casts no shadow, whatever its alpha mode.
     float transmission = 0;            ///< share of light from behind that passes through, in [0, 1]; the rest is diffuse
     float thickness = 0;               ///< path length of that light inside, world units, from 0
     float attenuation_distance = 0;    ///< path length after which white light has attenuation_color, world units; 0: no absorption
     Vec3f attenuation_color{1, 1, 1};  ///< linear, in [0, 1]
+    float dispersion = 0;              ///< spread of the indices of refraction of red and blue, from 0: 20 / Abbe's number
 
     // KHR_materials_clearcoat: a smooth layer with an index of refraction of 1.5 above the surface. It reflects with an F0 of 0.04, and
     // takes what it reflects from the light of all that is below it.
@@ -107,6 +110,10 @@ struct Material {
     // mesh without tangents is drawn without it.
     float anisotropy_strength = 0;      ///< in [0, 1]: alpha along the direction is roughness^2 + (1 - roughness^2) strength^2
     float anisotropy_rotation_rad = 0;  ///< of the direction from the tangent, counter-clockwise, radians
+
+    // KHR_materials_diffuse_transmission: a thin surface, as a leaf or a lampshade, that scatters a share of the light to its far side.
+    float diffuse_transmission = 0;             ///< share of scattered light that leaves on the far side, in [0, 1]
+    Vec3f diffuse_transmission_color{1, 1, 1};  ///< of that light, in place of the base colour, linear, in [0, 1]
 
     /// True if F0 where not metallic is more than one number.
     [[nodiscard]] bool has_specular_color() const {

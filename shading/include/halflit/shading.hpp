@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace halflit {
 
@@ -107,17 +108,40 @@ enum Stage : std::uint32_t {
     kStageSpecular = 1u << 7,
     kStageAmbient = 1u << 8,
     kStageUnlit = 1u << 9,
-    kStageGradients = 1u << 10,      ///< some texture's level or filter depends on how fast its coordinates change
-    kStagePrelit = 1u << 11,         ///< the fragments bring their light: a shading rate below one a pixel
-    kStageEnvironment = 1u << 12,    ///< the ambient light is an environment's, in spherical harmonics
-    kStageTransmission = 1u << 13,   ///< light from behind passes through the surface
-    kStageSpecularColor = 1u << 14,  ///< where not metallic, F0 has a colour, a weight or textures of its own
-    kStageShadowCatcher = 1u << 15,  ///< alpha is the share of light that is hidden; nothing else is seen
-    kStageClearcoat = 1u << 16,      ///< a coat above the surface mirrors
-    kStageSheen = 1u << 17,          ///< fibres above the surface glow at grazing views
-    kStageIridescence = 1u << 18,    ///< a thin film colours what the surface mirrors
-    kStageAnisotropy = 1u << 19,     ///< highlights and reflections are longer along a direction
-    kStageCount = 20
+    kStageGradients = 1u << 10,            ///< some texture's level or filter depends on how fast its coordinates change
+    kStagePrelit = 1u << 11,               ///< the fragments bring their light: a shading rate below one a pixel
+    kStageEnvironment = 1u << 12,          ///< the ambient light is an environment's, in spherical harmonics
+    kStageTransmission = 1u << 13,         ///< light from behind passes through the surface
+    kStageSpecularColor = 1u << 14,        ///< where not metallic, F0 has a colour, a weight or textures of its own
+    kStageShadowCatcher = 1u << 15,        ///< alpha is the share of light that is hidden; nothing else is seen
+    kStageClearcoat = 1u << 16,            ///< a coat above the surface mirrors
+    kStageSheen = 1u << 17,                ///< fibres above the surface glow at grazing views
+    kStageIridescence = 1u << 18,          ///< a thin film colours what the surface mirrors
+    kStageAnisotropy = 1u << 19,           ///< highlights and reflections are longer along a direction
+    kStageDiffuseTransmission = 1u << 20,  ///< light that falls on the far side is scattered to this one
+    kStageCount = 21
 };
+/// Names of the stages in reports, by bit.
+inline constexpr std::string_view kStageNames[kStageCount] = {"base colour texture",
+                                                              "vertex colour",
+                                                              "normal map",
+                                                              "metallic roughness texture",
+                                                              "occlusion texture",
+                                                              "emissive texture",
+                                                              "lights",
+                                                              "specular",
+                                                              "ambient",
+                                                              "unlit",
+                                                              "texture gradients",
+                                                              "light at vertices or triangles",
+                                                              "environment",
+                                                              "transmission",
+                                                              "specular colour",
+                                                              "shadow catcher",
+                                                              "clearcoat",
+                                                              "sheen",
+                                                              "iridescence",
+                                                              "anisotropy",
+                                                              "diffuse transmission"};
 
 }  // namespace halflit

@@ -343,6 +343,17 @@ typedef struct halflit_material {
     halflit_texture_use iridescence_thickness_texture;
     /// linear: red and green (2c - 1) turn the direction in tangent space, blue is the strength
     halflit_texture_use anisotropy_texture;
+    /// spread of the indices of refraction of red and blue, from 0: 20 / Abbe's number (0)
+    float dispersion;
+    /// share of scattered light that leaves on the far side, in [0, 1] (0)
+    float diffuse_transmission;
+    /// of that light, in place of the base colour, linear, in [0, 1] (1, 1, 1)
+    float diffuse_transmission_color[3];
+    /// linear: alpha
+    halflit_texture_use diffuse_transmission_texture;
+    /// sRGB
+    halflit_texture_use diffuse_transmission_color_texture;
+    int32_t reserved[2];  ///< 0
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 

@@ -78,10 +78,6 @@ constexpr LeftOut kLeftOut[] = {
     {"EXT_texture_webp", "the pictures of other formats are drawn"},
     {"KHR_draco_mesh_compression", "the data without compression are drawn"},
     {"KHR_meshopt_compression", "the data without compression are drawn"},
-    {"KHR_materials_anisotropy", "highlights are drawn round"},
-    {"KHR_materials_diffuse_transmission", "light does not pass through"},
-    {"KHR_materials_dispersion", "light is not split"},
-    {"KHR_materials_iridescence", "the thin film is left out"},
     {"KHR_texture_basisu", "the pictures of other formats are drawn"},
     {"KHR_xmp_json_ld", "nothing is left out of the picture"},
     {"MSFT_lod", "the finest level is drawn"},
@@ -150,10 +146,12 @@ void check_extensions(Document& document) {
     for (const std::string_view name : used) {
         check();
         if (is_supported(name)) continue;
-        const auto* known =
-            std::find_if(std::begin(kLeftOut), std::end(kLeftOut), [&](const LeftOut& row) { return row.extension == name; });
-        document.warn(known != std::end(kLeftOut) ? fmt::format("extensionsUsed: {} is not supported, {}", name, known->what)
-                                                  : fmt::format("extensionsUsed: {} is not known, ignored", printable(name, 80)));
+        const auto* row = std::find_if(std::begin(kLeftOut), std::end(kLeftOut), [&](const LeftOut& one) { return one.extension == name; });
+        const char* const what = row != std::end(kLeftOut)            ? row->what
+                                 : name.starts_with("KHR_materials_") ? "surfaces are drawn without it"
+                                                                      : nullptr;
+        document.warn(what != nullptr ? fmt::format("extensionsUsed: {} is not supported, {}", printable(name, 80), what)
+                                      : fmt::format("extensionsUsed: {} is not known, ignored", printable(name, 80)));
     }
     for (std::size_t i = 0; i < file.extensions_required.size(); ++i)
         if (const std::string_view name = file.extensions_required[i]; check(), !is_supported(name))
