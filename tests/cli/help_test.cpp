@@ -20,8 +20,6 @@ std::size_t longest_line(const std::string& text) {
     return longest;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("help: it folds to the width of the terminal or of COLUMNS, up to 120", "[cli][help]") {
