@@ -6,7 +6,6 @@
 #include "raster/scene/instance_material.hpp"
 #include "raster/view/depth_range.hpp"
 #include "sh/mat4.hpp"
-#include "sh/power.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/material_properties.hpp"
 #include "shading/plan/lobe_plan.hpp"
@@ -31,12 +30,6 @@ Rgb3 difference(const Rgb3& a, const Rgb3& b) { return {a[0] - b[0], a[1] - b[1]
 Rgb3 codes_of(ToneCurve curve, const Rgb3& linear) {
     const Vec3d shown = shading::reference::toned(curve, {linear[0], linear[1], linear[2]});
     return {shading::reference::srgb_code(shown.x), shading::reference::srgb_code(shown.y), shading::reference::srgb_code(shown.z)};
-}
-
-/// The lobe at x = N.L.
-double value_of(const Lobe& lobe, double x) {
-    const double wrap = double{lobe.wrap}, scale = lobe.normalize ? (double{lobe.power} + 1.0) / (2.0 * (1.0 + wrap)) : 1.0;
-    return scale * power_of(larger(0.0, (x + wrap) / (1.0 + wrap)), double{lobe.power});
 }
 
 /// The planes of one pixel.
@@ -250,7 +243,7 @@ private:
         if (!(size > 0.0)) return;
         to_light = to_light * (1.0 / size);
         share.cosine = dot(story_.normal, to_light);
-        share.lobe = value_of(story_.lobe, share.cosine);
+        share.lobe = shading::reference::lobe_value(story_.lobe, share.cosine);
         share.lambert = larger(0.0, share.cosine);
         Ray ray{story_.position, to_light, rounding()};
         if (kind_of(light.type).placed) ray.most = share.distance;

@@ -38,7 +38,7 @@ template <class T>
     return sum;
 }
 
-/// Definition of the result of every faster evaluation: in double, coefficients in ascending order. May be negative (see sh/window.hpp).
+/// Definition of the result of every faster evaluation: in double, coefficients in ascending order. May be negative.
 [[nodiscard]] inline Vec3d evaluate(const PreconvolvedSh& sh, Vec3d normal) {
     double y[kMaxCoefficients];
     evaluate_basis<kMaxBands>(normal, y);

@@ -44,11 +44,4 @@ HALFLIT_INLINE NormalMatrix normal_matrix(const Mat4& m) {
     return n;
 }
 
-/// Inverse of a rigid transform (rotation and translation, no scale).
-HALFLIT_INLINE Mat4 rigid_inverse(const Mat4& m) {
-    const Vec3f t{m.c[3].x, m.c[3].y, m.c[3].z};
-    const Vec3f x{m.c[0].x, m.c[0].y, m.c[0].z}, y{m.c[1].x, m.c[1].y, m.c[1].z}, z{m.c[2].x, m.c[2].y, m.c[2].z};
-    return {{{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {-dot(x, t), -dot(y, t), -dot(z, t), 1}}};
-}
-
 }  // namespace halflit

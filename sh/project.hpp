@@ -48,19 +48,4 @@ private:
     Vec3d squares_, absolute_;
 };
 
-/// Expansion of fn(direction) -> Vec3d, bands in 1..10, by a quadrature of the given degree: exact if fn is a polynomial of degree up to
-/// `degree` - `bands` + 1, and close if it is smooth.
-template <class Fn>
-[[nodiscard]] RadianceSh project_function(int bands, int degree, Fn&& fn) {
-    RadianceSh out{bands, {}};
-    for (const SphereNode& node : sphere_quadrature(degree)) {
-        double y[kMaxCoefficients];
-        evaluate_basis<kMaxBands>(node.direction, y);
-        const Vec3d value = fn(node.direction) * node.weight;
-        for (int i = 0; i < coefficient_count(bands); ++i)
-            out.c[static_cast<std::size_t>(i)] = out.c[static_cast<std::size_t>(i)] + value * y[i];
-    }
-    return out;
-}
-
 }  // namespace halflit::sh

@@ -1,4 +1,4 @@
-// Gauss quadrature on an interval and on the sphere, exact for polynomials. Rotation, products and the projection of functions use it.
+// Gauss quadrature on an interval and on the sphere, exact for polynomials. Rotation uses it.
 // Nodes are computed with + - * / and sqrt alone.
 #pragma once
 

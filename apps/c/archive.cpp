@@ -1,20 +1,23 @@
-#include "apps/c/archive.hpp"
-
+// A scene as bytes, for copies and other processes of the same version of the library on machines of one byte order.
 #include "apps/c/boundary.hpp"
 #include "apps/c/scene_access.hpp"
+#include "apps/c/scene_handle.hpp"
 #include "shading/environment.hpp"
 
 #include <halflit/target.hpp>
 #include <halflit/version.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace halflit::c {
 namespace {
@@ -312,8 +315,7 @@ bool is_sound(const Archive& a) {
            free_of(a.free_lights, s.lights.size()) && free_of(a.free_textures, s.textures.size());
 }
 
-}  // namespace
-
+/// All that a scene has but what its animations need. Fails (usage) for an environment whose image was not kept.
 Result<std::vector<std::byte>> archived(const halflit_scene& scene) {
     Archive a;
     a.scene = scene.scene;
@@ -338,6 +340,8 @@ Result<std::vector<std::byte>> archived(const halflit_scene& scene) {
     return std::move(writer.bytes_);
 }
 
+/// Replaces the scene's content; it keeps what its own animations need. Fails (bad_input), with the scene unchanged, for bytes of another
+/// version or that are damaged, and for indices out of range.
 Result<void> restore(std::span<const std::byte> bytes, halflit_scene& scene) {
     const auto refused = [] { return fail(ErrorCode::bad_input, "expected the bytes of a scene of this version of halflit, whole"); };
     std::uint64_t hash = 0;
@@ -370,6 +374,7 @@ Result<void> restore(std::span<const std::byte> bytes, halflit_scene& scene) {
     return {};
 }
 
+}  // namespace
 }  // namespace halflit::c
 
 using namespace halflit;

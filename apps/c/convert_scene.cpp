@@ -45,29 +45,35 @@ void put(const Mat4& m, float to[16]) {
 
 // ---- loading -----------------------------------------------------------------------------------------------------------
 
+/// Calls copy(given, option) for each member that both structs have.
+template <class Given, class Options, class Copy>
+void for_each_option(Given& given, Options& options, const Copy& copy) {
+    copy(given.max_file_bytes, options.limits.max_file_bytes);
+    copy(given.max_total_bytes, options.limits.max_total_bytes);
+    copy(given.max_json_tokens, options.limits.max_json_tokens);
+    copy(given.max_texture_bytes, options.limits.max_texture_bytes);
+    copy(given.max_texture_pixels, options.limits.max_texture_pixels);
+    copy(given.max_geometry_bytes, options.limits.max_geometry_bytes);
+    copy(given.max_lights, options.limits.max_lights);
+    copy(given.max_json_depth, options.limits.max_json_depth);
+    copy(given.max_texture_side, options.limits.max_texture_side);
+    copy(given.max_jpeg_scans, options.limits.max_jpeg_scans);
+    copy(given.max_work, options.limits.max_work);
+    copy(given.time_limit_s, options.limits.time_limit_s);
+    copy(given.strict, options.strict);
+    copy(given.threads, options.threads);
+    copy(given.keep_animations, options.keep_animations);
+    copy(given.time_s, options.time_s);
+    copy(given.crease_deg, options.crease_deg);
+    copy(given.recentre, options.recentre);
+    copy(given.plate, options.plate);
+}
+
 halflit_load_options to_c(const LoadOptions& from) {
     halflit_load_options options{};
     options.size = sizeof options;
-    options.max_file_bytes = from.limits.max_file_bytes;
-    options.max_total_bytes = from.limits.max_total_bytes;
-    options.max_json_tokens = from.limits.max_json_tokens;
-    options.max_texture_bytes = from.limits.max_texture_bytes;
-    options.max_texture_pixels = from.limits.max_texture_pixels;
-    options.max_geometry_bytes = from.limits.max_geometry_bytes;
-    options.max_lights = from.limits.max_lights;
-    options.max_json_depth = from.limits.max_json_depth;
-    options.max_texture_side = from.limits.max_texture_side;
-    options.max_jpeg_scans = from.limits.max_jpeg_scans;
-    options.strict = from.strict;
-    options.threads = from.threads;
-    options.keep_animations = from.keep_animations;
-    options.time_s = from.time_s;
+    for_each_option(options, from, [](auto& given, const auto& option) { given = option; });
     options.up = from.up ? static_cast<std::int32_t>(*from.up) + 1 : HALFLIT_UP_BY_FORMAT;
-    options.time_limit_s = from.limits.time_limit_s;
-    options.crease_deg = from.crease_deg;
-    options.recentre = from.recentre;
-    options.plate = from.plate;
-    options.max_work = from.limits.max_work;
     return options;
 }
 
@@ -82,13 +88,9 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
         if (read->allow_external[i] == nullptr) return fail(ErrorCode::usage, "halflit_load_options: a folder of allow_external is null");
         options.allow_external.emplace_back(read->allow_external[i]);
     }
-    options.strict = read->strict != 0;
-    options.threads = read->threads;
-    options.keep_animations = read->keep_animations != 0;
     if (read->animation != nullptr) options.animation = read->animation;
     if (read->scene != nullptr) options.scene = read->scene;
     if (read->variant != nullptr) options.variant = read->variant;
-    options.time_s = read->time_s;
     if (read->up < HALFLIT_UP_BY_FORMAT || read->up > HALFLIT_UP_MINUS_Z)
         return fail(ErrorCode::usage, "halflit_load_options: up is no HALFLIT_UP");
     if (read->up != HALFLIT_UP_BY_FORMAT) options.up = static_cast<UpAxis>(read->up - 1);
@@ -100,21 +102,7 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
         members.wrong("threads", "is " + std::to_string(read->threads) + ", expected 0 to " + std::to_string(kMostThreads));
     members.finite("time_s", read->time_s);
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
-    options.limits.time_limit_s = read->time_limit_s;
-    options.crease_deg = read->crease_deg;
-    options.recentre = read->recentre != 0;
-    options.plate = read->plate;
-    options.limits.max_file_bytes = read->max_file_bytes;
-    options.limits.max_total_bytes = read->max_total_bytes;
-    options.limits.max_work = read->max_work;
-    options.limits.max_json_tokens = read->max_json_tokens;
-    options.limits.max_texture_bytes = read->max_texture_bytes;
-    options.limits.max_texture_pixels = read->max_texture_pixels;
-    options.limits.max_geometry_bytes = read->max_geometry_bytes;
-    options.limits.max_lights = read->max_lights;
-    options.limits.max_json_depth = read->max_json_depth;
-    options.limits.max_texture_side = read->max_texture_side;
-    options.limits.max_jpeg_scans = read->max_jpeg_scans;
+    for_each_option(*read, options, [](const auto& value, auto& option) { option = static_cast<std::decay_t<decltype(option)>>(value); });
     return options;
 }
 

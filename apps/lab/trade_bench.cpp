@@ -129,8 +129,6 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
     settings_.contact_shadow = job_.settings.contact_shadow;
     if (!coverage) return tl::unexpected(coverage.error());
     references_.emplace_back(*picture, *coverage, job_.settings.tone_curve);
-    pictures_.push_back(std::move(*picture));
-    pictures_.back().rgba_linear.clear();
     return row;
 }
 

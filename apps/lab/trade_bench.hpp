@@ -37,7 +37,7 @@ struct TradeRow {
 /// one. Numbers the marked rows of all lobes by time.
 void mark_front(std::vector<TradeRow>& rows);
 
-/// Draws and times a job's frame with each choice, and keeps the reference pictures.
+/// Draws and times a job's frame with each choice, and keeps the references.
 class TradeBench {
 public:
     /// The job must have been made for reference accuracy, so that its environment keeps the image that the reference integrates.
@@ -49,10 +49,7 @@ public:
     /// Measures the references, one for each lobe, then the choices in order, and marks the front.
     Result<std::vector<TradeRow>> measure(const std::vector<TradeChoice>& choices, const Progress& progress);
 
-    /// Draws the job's region, with linear floats.
-    Result<Image> draw(const TradeChoice& choice);
     [[nodiscard]] const TradeReference& reference(std::optional<std::size_t> lobe) const { return references_[lobe ? *lobe + 1 : 0]; }
-    [[nodiscard]] const Image& reference_picture(std::optional<std::size_t> lobe) const { return pictures_[lobe ? *lobe + 1 : 0]; }
 
     [[nodiscard]] const RenderJob& job() const { return job_; }
     [[nodiscard]] const TradeSpace& space() const { return space_; }
@@ -61,6 +58,8 @@ public:
 
 private:
     Result<void> choose(const TradeChoice& choice);
+    /// Draws the job's region, with linear floats.
+    Result<Image> draw(const TradeChoice& choice);
     Result<TradeRow> measure_reference(std::optional<std::size_t> lobe);
     Result<TradeRow> measure_choice(const TradeChoice& choice);
     struct Times {
@@ -80,8 +79,7 @@ private:
     std::vector<double> exact_times_, exact_cpu_times_;
     double exact_ms_ = 0;
     std::vector<TradeReference> references_;  ///< one for the scene's own lobe, then one for each of the others
-    std::vector<Image> pictures_;
-    RenderReport drawn_;  ///< report of the last draw()
+    RenderReport drawn_;                      ///< report of the last draw()
 };
 
 }  // namespace halflit::cli

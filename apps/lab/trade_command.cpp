@@ -32,11 +32,8 @@ TradeSpace space_of(const RenderJob& job, const TradeOptions& options) {
     return space;
 }
 
-Result<void> write_all(const std::vector<TradeRow>& rows, TradeBench& bench, const std::string& folder) {
-    const auto page = trade_page(rows, bench);
-    if (!page) return tl::unexpected(page.error());
-    const std::pair<const char*, std::string> files[] = {
-        {"trade.csv", trade_csv(rows, bench.space())}, {"trade.json", trade_json(rows, bench)}, {"index.html", *page}};
+Result<void> write_all(const std::vector<TradeRow>& rows, const TradeBench& bench, const std::string& folder) {
+    const std::pair<const char*, std::string> files[] = {{"trade.json", trade_json(rows, bench)}, {"trade.md", trade_table(rows, bench)}};
     for (const auto& [name, text] : files) {
         const std::string path = path_in(folder, name);
         if (const auto written = write_text(path, text); !written) return tl::unexpected(written.error());
@@ -86,7 +83,7 @@ Command trade_command() {
     remove_flags(groups, kVaried);
     groups.push_back(
         {"Comparison",
-         {{"-o,--output", "DIR", "Folder for index.html, trade.csv and trade.json; created if missing (default trade)",
+         {{"-o,--output", "DIR", "Folder for trade.json and trade.md, a table; created if missing (default trade)",
            [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
           {"--frames", "N", "Frames for each setting, drawn in turn with frames of exact (default 5)", read_int(o.frames, 1, 1000)},
           {"--lobes", "NAME,...", "Also measure these lobes, on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",

@@ -22,8 +22,6 @@ std::string accuracy_of(const TradeRow& row) { return row.bound ? "budget" : std
 /// Faster in every pair of frames, and by more than exact against itself varies.
 bool surely_cheaper(const TradeRow& row, const TradeRow& exact) { return row.ratio_max < 1 && row.ratio < exact.ratio_min; }
 
-std::string quoted(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
-
 Json row_json(const TradeRow& row, const TradeSpace& space) {
     const TradeChoice& choice = row.choice;
     Json json{{"name", row.name},
@@ -61,24 +59,35 @@ Json row_json(const TradeRow& row, const TradeSpace& space) {
     return json;
 }
 
+std::string bound_text(const TradeRow& row) {
+    if (!row.bound) return "";
+    return fmt::format("{:.3g}{}", row.bound->codes, !row.kept() ? ", violated" : row.bound->within ? "" : ", above the budget");
+}
+
+std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows) {
+    std::vector<const TradeRow*> sorted;
+    for (const TradeRow& row : rows) sorted.push_back(&row);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const TradeRow* a, const TradeRow* b) { return a->ratio < b->ratio; });
+    return sorted;
+}
+
 }  // namespace
 
-std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space) {
-    std::string text =
-        "name,flags,lobe,accuracy,max_error,order,rate,texture_filter,shadows,shadow_size,samples,anisotropy,ms,ratio,ratio_min,"
-        "ratio_max,cpu_ratio,max,mean,p999,psnr,share_off_by_one,bound,within,kept,front\n";
-    for (const TradeRow& row : rows) {
-        const TradeChoice& c = row.choice;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},", quoted(row.name), row.flags, lobe_name(row, space), accuracy_of(row),
-                            c.max_error_codes > 0 ? fmt::format("{:g}", c.max_error_codes) : "",
-                            c.order > 0 ? fmt::format("{}", c.order) : "auto", rate_name(c.rate), texture_detail_name(c.texture),
-                            shadow_mode_name(c.shadows), c.shadow_size, c.samples, c.anisotropy);
-        text += fmt::format("{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.6g},{:.6g},{:.6g},{},{:.6g},{},{},{},{}\n", row.ms, row.ratio,
-                            row.ratio_min, row.ratio_max, row.cpu_ratio, row.error.max, row.error.mean, row.error.p999,
-                            row.error.psnr ? fmt::format("{:.2f}", *row.error.psnr) : "", row.error.share_off,
-                            row.bound ? fmt::format("{:.6g}", row.bound->codes) : "", row.bound ? fmt::format("{}", row.bound->within) : "",
-                            row.bound ? fmt::format("{}", row.kept()) : "", row.front);
-    }
+std::string trade_table(const std::vector<TradeRow>& rows, const TradeBench& bench) {
+    std::string text = fmt::format(
+        "# Time and error of {}\n\n```\n{}```\n\n"
+        "Geometry covers {} pixels. Times are medians, divided by the time of exact. Errors are differences from the float64 reference in "
+        "a "
+        "pixel's worst channel, in 8-bit codes before rounding. A bound is what a budget proves beforehand. Numbered rows are the Pareto "
+        "front: settings that no other setting beats in both time and error.\n\n"
+        "| | settings | flags | time | largest error | of 99.9 % | mean | PSNR, dB | off by 1, % | bound |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n",
+        bench.job().source.name, trade_summary(rows, bench), bench.reference(std::nullopt).pixels_drawn());
+    for (const TradeRow* row : rows_by_time(rows))
+        text += fmt::format("| {} | {} | {} | {:.2f} | {:.3g} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n",
+                            row->number > 0 ? fmt::format("{}", row->number) : "", row->name,
+                            row->flags.empty() ? "" : "`" + row->flags + "`", row->ratio, row->error.max, row->error.p999, row->error.mean,
+                            row->error.psnr ? fmt::format("{:.1f}", *row->error.psnr) : "", 100 * row->error.share_off, bound_text(*row));
     return text;
 }
 
@@ -112,13 +121,6 @@ std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& b
             text += fmt::format("bound violated: {} has an error of {:.4g} codes, its bound is {:.4g}\n", row.name, row.error.max,
                                 row.bound->codes);
     return text;
-}
-
-std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows) {
-    std::vector<const TradeRow*> sorted;
-    for (const TradeRow& row : rows) sorted.push_back(&row);
-    std::stable_sort(sorted.begin(), sorted.end(), [](const TradeRow* a, const TradeRow* b) { return a->ratio < b->ratio; });
-    return sorted;
 }
 
 std::vector<TradeOffer> trade_offers(const std::vector<TradeRow>& rows, const TradeSpace& space) {

@@ -1,4 +1,4 @@
-// Results of `halflit trade` as CSV, JSON, text and HTML.
+// Results of `halflit trade` as JSON, text and Markdown.
 #pragma once
 
 #include "apps/lab/trade_bench.hpp"
@@ -8,8 +8,8 @@
 
 namespace halflit::cli {
 
-/// A header line, then one line for each row, in the order of the rows.
-[[nodiscard]] std::string trade_csv(const std::vector<TradeRow>& rows, const TradeSpace& space);
+/// The summary and a table of all rows by time, as Markdown.
+[[nodiscard]] std::string trade_table(const std::vector<TradeRow>& rows, const TradeBench& bench);
 
 /// {..., "noise": [low, high], "rows": [...]}: noise is the range of exact's time divided by that of another frame of exact.
 [[nodiscard]] std::string trade_json(const std::vector<TradeRow>& rows, const TradeBench& bench);
@@ -17,11 +17,6 @@ namespace halflit::cli {
 /// A few lines of text: the cheapest flags for each error, and the bounds that did not hold.
 [[nodiscard]] std::string trade_summary(const std::vector<TradeRow>& rows, const TradeBench& bench);
 
-/// One self-contained page; draws the pictures that it shows.
-[[nodiscard]] Result<std::string> trade_page(const std::vector<TradeRow>& rows, TradeBench& bench);
-
-/// Rows sorted by ratio, the fastest first.
-[[nodiscard]] std::vector<const TradeRow*> rows_by_time(const std::vector<TradeRow>& rows);
 /// The fastest row of the scene's own lobe whose error.p999 is at most `codes`.
 struct TradeOffer {
     double codes = 0;

@@ -5,7 +5,7 @@
 
 Exit code 77: there is no mkdocs. The sources of the site, in OUTPUT/source, are a copy of README.md, of docs/*.md and of all files that
 they link to, under the same paths: so a link works in the repository and on the site. To these come pictures for each flag
-(flag_pictures.py), and the figures that the course names.
+(flag_pictures.py).
 """
 import html
 import pathlib
@@ -20,7 +20,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 GALLERY = ROOT / "apps/examples/gallery"
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-FIGURE = re.compile(r"^<!-- figure: ([a-z-]+) -->$", re.M)
 
 
 def code_removed(text):
@@ -96,19 +95,6 @@ def gather(source):
     return len(pages)
 
 
-def draw_figures(program, source):
-    """Replaces the marks of figures in the pages by figures of the program. Returns their number."""
-    count = 0
-    for path in sorted((source / "docs").glob("*.md")):
-        text = path.read_text(encoding="utf-8")
-        names = FIGURE.findall(text)
-        if names:
-            subprocess.run([program, "figures", *names, "-o", source / "docs/figures", "--quiet"], check=True)
-            path.write_text(FIGURE.sub(r"![The figure \1 of `halflit figures`](figures/\1.svg)", text), encoding="utf-8")
-        count += len(names)
-    return count
-
-
 def complete_scripts(site):
     """Debian's mkdocs has its theme's scripts under other names than the theme asks for, and lacks one."""
     asked = set(re.findall(r'src="(js/[^"]+)"', (site / "index.html").read_text(encoding="utf-8")))
@@ -130,7 +116,6 @@ def main():
     pages = gather(source)
     for name, folder in (("site.css", source), ("mkdocs.yml", output)):
         shutil.copyfile(HERE / name, folder / name)
-    figures = draw_figures(program, source)
     pictures = flag_pictures.make(program, source / "docs")
     if len(sys.argv) == 4:
         shutil.copytree(sys.argv[3], source / "reference")
@@ -138,7 +123,7 @@ def main():
             file.write("\n[All names, by doxygen](../reference/index.html)\n")
     subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", output / "mkdocs.yml"], check=True)
     complete_scripts(output / "site")
-    print(f"{pages + 1} pages, {figures} figures, {pictures} pictures of flags", file=sys.stderr)
+    print(f"{pages + 1} pages, {pictures} pictures of flags", file=sys.stderr)
     return 0
 
 

@@ -1,5 +1,6 @@
 #include "shading/reference/reference.hpp"
 
+#include "sh/lobe_error.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
 #include "shading/model/reflection_tables.hpp"
@@ -449,9 +450,7 @@ Vec3d lit(const FrameInputs& frame, const Material& material, const Surface& sur
 
 double lobe_value(const Lobe& lobe, double x) {
     const double w = lobe.wrap, n = lobe.power;
-    if (!(x > -w)) return 0.0;
-    const double scale = lobe.normalize ? (n + 1) / (2 * (1 + w)) : 1.0;
-    return scale * std::pow(std::min((x + w) / (1 + w), 1.0), n);
+    return sh::lobe_value({w, n, lobe.normalize ? (n + 1) / (2 * (1 + w)) : 1.0}, x);
 }
 
 Rgba sample(const Texture& texture, const Sampler& sampler, double u, double v, double lod) {

@@ -4,6 +4,7 @@
 #include "apps/io/pictures/float_image.hpp"
 #include "apps/io/pictures/image_reader.hpp"
 #include "halflit/image.hpp"
+#include "tests/support/base64.hpp"
 #include "tests/support/catch.hpp"
 
 #include <nlohmann/json.hpp>
@@ -46,23 +47,12 @@ int number_at(const std::string& path, int x, int y) {
     return image->rgba16[4 * static_cast<std::size_t>(y * image->width + x)];
 }
 
-std::string base64(const std::string& bytes) {
-    const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {  // a multiple of 3
-        unsigned n = 0;
-        for (std::size_t k = 0; k < 3; ++k) n = n << 8 | static_cast<unsigned char>(bytes[i + k]);
-        for (int shift = 18; shift >= 0; shift -= 6) text += digits[n >> shift & 63];
-    }
-    return text;
-}
-
 /// A glTF file of one triangle in a plane z, with corners at (x - 1, -1), (x + 1, -1) and (x, 1).
 std::string triangle_at(float x, float z) {
-    std::string bytes;
+    std::vector<std::uint8_t> bytes;
     for (const float value : {x - 1, -1.0f, z, x + 1, -1.0f, z, x, 1.0f, z}) {
         const auto bits = std::bit_cast<std::uint32_t>(value);
-        for (int i = 0; i < 4; ++i) bytes += static_cast<char>(bits >> (8 * i));
+        for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
     }
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
         "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
@@ -70,7 +60,7 @@ std::string triangle_at(float x, float z) {
            std::to_string(x - 1) + ",-1," + std::to_string(z) + R"(],"max":[)" + std::to_string(x + 1) + ",1," + std::to_string(z) +
            R"(]}],"bufferViews":[{"buffer":0,"byteLength":36}],
         "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)" +
-           base64(bytes) + "\"}]}";
+           encode_base64(bytes) + "\"}]}";
 }
 
 }  // namespace

@@ -110,19 +110,10 @@ TEST_CASE("canvas: what lies outside changes nothing inside", "[canvas]") {
         canvas.line({far, 2}, {4, 4}, 2, kWhite);
         canvas.dot({3, far}, 2, kWhite);
         canvas.fill_box({far, far}, far, far, kWhite);
-        canvas.dashed_line({far, 2}, {4, 4}, 2, kWhite, 4, 4);
         canvas.arrow({far, 0}, {0, far}, 2, kWhite);
         draw_text(canvas, {far, 4}, "text", {});
     }
     CHECK(covered(canvas) == 0);
-}
-
-TEST_CASE("canvas: dashes cover the share of a line that their lengths give", "[canvas]") {
-    Canvas canvas = black(100, 10);
-    canvas.dashed_line({10, 5}, {90, 5}, 2, kWhite, 6, 4);
-    CHECK(covered(canvas) == Approx(8 * 6 * 2));
-    CHECK(code(canvas, 15, 5) == 255);
-    CHECK(code(canvas, 16, 5) == 0);
 }
 
 TEST_CASE("canvas: a half transparent colour on a transparent picture keeps its colour", "[canvas]") {

@@ -12,17 +12,6 @@ using namespace halflit::test;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-/// A triangle in a buffer of its own, in the plane z = 0 with corners (0, 0), (1, 0), (0, 2).
-void write_triangle(const std::string& path) {
-    write_contents(path, R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0]}],
-"bufferViews":[{"buffer":0,"byteLength":36}],
-"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAA"}]})");
-}
-
 /// Pixels that differ from the one in the corner.
 std::size_t pixels_drawn(const Picture& picture) {
     std::size_t drawn = 0;

@@ -11,8 +11,6 @@ using nlohmann::json;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// One triangle that fills the lower left half of the view, with names that must be escaped on a terminal.
 constexpr const char* kTriangle = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0,
     "nodes": [{"name": "lid\u001b[2J", "mesh": 0}],

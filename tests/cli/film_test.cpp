@@ -61,13 +61,6 @@ std::string rising_cube_file(const TemporaryFolder& folder) {
     return path;
 }
 
-std::vector<nlohmann::json> lines_of(const std::string& text) {
-    std::vector<nlohmann::json> out;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) out.push_back(nlohmann::json::parse(line));
-    return out;
-}
-
 struct ShownFrame {
     std::vector<unsigned char> rgba8;
     double seconds = 0;
@@ -262,7 +255,7 @@ TEST_CASE("frames: an animation's frames are the pictures of --time, at N / fps 
                        "--contact-shadow",  "0"};
     Strings film = look;
     film.insert(film.end(), {"--frames", "0-20:10", "--fps", "12.5", "-o", folder.file("n_{frame:02}.png"), "--report", "-"});
-    const auto report = lines_of(draw(arm, film).out);
+    const auto report = json_lines(draw(arm, film).out);
     REQUIRE(report.size() == 3);
     std::set<std::string> hashes;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -464,7 +457,7 @@ TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn
                                 folder.file("shared_{}.bmp"), "--report", folder.file("shared.json")});
     REQUIRE(shared.code == 0);
     CHECK(contents(folder.file("shared_7.bmp")) == contents(folder.file("all_7.bmp")));
-    const auto told_quality = lines_of(contents(folder.file("shared.json"))).at(0)["quality"];
+    const auto told_quality = json_lines(contents(folder.file("shared.json"))).at(0)["quality"];
     CHECK(told_quality["asked_percent"] == 95.0);
     CHECK(told_quality["percent"] >= 95.0);
     for (const Strings& wrong : {Strings{"--share", "95"},

@@ -20,12 +20,10 @@ std::size_t longest_line(const std::string& text) {
     return longest;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("help: it folds to the width of the terminal or of COLUMNS, up to 120", "[cli][help]") {
-    for (const std::string command : {"render", "bench", "trade", "figures"}) {
+    for (const std::string command : {"render", "bench", "trade"}) {
         INFO(command);
         CHECK(longest_line(run({command, "--help"}).out) <= 80);
         if (abilities().terminals) CHECK(longest_line(run({command, "--help"}, {.terminal_columns = 90}).out) <= 90);

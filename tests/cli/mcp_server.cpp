@@ -1,7 +1,7 @@
 #include "tests/cli/mcp_server.hpp"
 
 #include "tests/cli/small_models.hpp"
-#include "tests/fuzz/base64.hpp"
+#include "tests/support/base64.hpp"
 #include "tests/support/catch.hpp"
 
 #include <array>
@@ -72,7 +72,7 @@ std::optional<std::string> id_of_answer(const std::string& line) {
 }
 
 std::string decoded_base64(const std::string& text) {
-    const auto bytes = fuzz::decode_base64(text);
+    const auto bytes = decode_base64(text);
     REQUIRE(bytes);
     return {bytes->begin(), bytes->end()};
 }
@@ -97,7 +97,7 @@ std::string assembly_gltf() {
                       {"bufferView": 1, "componentType": 5125, "count": 36, "type": "SCALAR"}],
         "bufferViews": [{"buffer": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 144}],
         "buffers": [{"byteLength": 240, "uri": "data:application/octet-stream;base64,)" +
-           fuzz::encode_base64(bytes) + "\"}]}";
+           encode_base64(bytes) + "\"}]}";
 }
 
 std::string grid_obj(int n, double side) {

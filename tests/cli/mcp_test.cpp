@@ -14,8 +14,6 @@ using nlohmann::json;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// A failure does not print the bytes.
 bool same(const std::string& a, const std::string& b) { return !a.empty() && a == b; }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace halflit::test {
 
@@ -34,6 +36,27 @@ std::string png_of(int width, int height, std::vector<unsigned char> rgba8) {
     const auto bytes = encode_image({width, height, std::move(rgba8), {}}, OutputFormat::png);
     REQUIRE(bytes);
     return {bytes->begin(), bytes->end()};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+std::vector<nlohmann::json> json_lines(const std::string& text) {
+    std::vector<nlohmann::json> values;
+    for (const std::string& line : lines_of(text)) values.push_back(nlohmann::json::parse(line));
+    return values;
+}
+
+void write_triangle(const std::string& path, const std::string& scale) {
+    write_contents(path, R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[)" + scale + R"(]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAA"}]})");
 }
 
 }  // namespace halflit::test

@@ -4,6 +4,7 @@
 #include "tests/support/system.hpp"
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace halflit::test {
 [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, const RunSettings& settings = {});
 
 void write_contents(const std::string& path, const std::string& text);
+
+[[nodiscard]] inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+[[nodiscard]] std::vector<std::string> lines_of(const std::string& text);
+/// Each line is a value.
+[[nodiscard]] std::vector<nlohmann::json> json_lines(const std::string& text);
+
+/// A glTF file of one triangle in the plane z = 0 with corners (0, 0), (1, 0), (0, 2). scale: three numbers with commas between them.
+void write_triangle(const std::string& path, const std::string& scale = "1,1,1");
 
 struct Picture {
     int width = 0, height = 0;

@@ -49,7 +49,6 @@ TEST_CASE("usage: an invalid command line ends with 2 and says what was expected
         {{"--camera", "info", "demo"}, "--camera: expected an index below 1 or a camera's name, found 'info'"},
         {{"convert", "demo"}, "unknown command convert (did you mean render?)"},
         {{"lobe", "valv"}, "did you mean valve?"},
-        {{"figures", "curvs"}, "did you mean curves?"},
         {{"render", "--siez", "8x8"}, "did you mean --size?"},
         {{"render", "--zzzzzzzz"}, "unknown flag --zzzzzzzz"},
         {{"render", "demo", "extra"}, "unexpected argument extra"},
@@ -158,7 +157,7 @@ TEST_CASE("usage: help and version go to standard output and end with 0", "[cli]
     CHECK(version.out.starts_with("halflit "));
     CHECK(version.out.find("pixel_epoch") != std::string::npos);
     CHECK(run({"-V"}).out == version.out);
-    for (const std::string command : {"render", "bench", "info", "diff", "lobe", "env", "figures", "trade"}) {
+    for (const std::string command : {"render", "bench", "info", "diff", "lobe", "env", "trade"}) {
         const Outcome help = run({command, "--help"});
         INFO(command);
         CHECK(help.code == 0);

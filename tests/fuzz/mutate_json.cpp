@@ -1,8 +1,8 @@
 // Mutations of JSON nodes. The order of an object's members is kept.
 #include "shading/material_properties.hpp"
-#include "tests/fuzz/base64.hpp"
 #include "tests/fuzz/gltf_words.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/support/base64.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -147,10 +147,10 @@ void mutate_string(Json& text, std::size_t max_bytes, Random& random) {
     auto& value = text.get_ref<std::string&>();
     const std::size_t comma = value.find(";base64,");
     if (value.starts_with("data:") && comma != std::string::npos && !random.one_in(16)) {
-        auto bytes = decode_base64(std::string_view(value).substr(comma + 8));
+        auto bytes = test::decode_base64(std::string_view(value).substr(comma + 8));
         if (bytes) {
             mutate_payload(*bytes, std::max(bytes->size(), max_bytes / 2), random);
-            value = value.substr(0, comma + 8) + encode_base64(*bytes);
+            value = value.substr(0, comma + 8) + test::encode_base64(*bytes);
             return;
         }
     }

@@ -193,4 +193,12 @@ struct Arm {
     }
 };
 
+inline LoadOptions at(double time, const std::string& animation = "", bool keep = false) {
+    LoadOptions options;
+    options.animation = animation;
+    options.time_s = time;
+    options.keep_animations = keep;
+    return options;
+}
+
 }  // namespace halflit::test

@@ -143,14 +143,6 @@ void check_arm(const Arm& arm, const Scene& scene, double time) {
     }
 }
 
-LoadOptions at(double time, const std::string& animation = "", bool keep = false) {
-    LoadOptions options;
-    options.animation = animation;
-    options.time_s = time;
-    options.keep_animations = keep;
-    return options;
-}
-
 /// One triangle at node 0, moved by one channel of three keys at 1, 2 and 4 s.
 Bytes sliding(const std::string& more = "") {
     FilePieces pieces;

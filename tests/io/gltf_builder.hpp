@@ -2,6 +2,7 @@
 #pragma once
 
 #include "halflit/gltf.hpp"
+#include "tests/support/base64.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -50,16 +51,7 @@ inline std::uint32_t u32_of(const Bytes& file, std::size_t at) {
 
 inline void append_u32(Bytes& out, std::uint32_t value) { append<std::uint32_t>(out, {value}); }
 
-inline std::string base64(const Bytes& bytes) {
-    static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? static_cast<std::uint32_t>(bytes[i + k]) : 0u);
-        for (int k = 0; k < 4; ++k) out += i + static_cast<std::size_t>(k) > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * k) & 63u];
-    }
-    return out;
-}
+inline std::string base64(const Bytes& bytes) { return encode_base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}); }
 
 /// A GLB of a JSON chunk and, unless `bin` is empty, a BIN chunk.
 inline Bytes glb(std::string json, Bytes bin = {}) {
@@ -140,16 +132,22 @@ struct TriangleFile {
     int count = 0;
 };
 
+/// A triangle with a material, and two sets of texture coordinates over all of a picture's corner.
+inline TriangleFile triangle_with_material() {
+    TriangleFile file;
+    Bytes uv;
+    append<float>(uv, {0, 0, 1, 0, 0, 1});
+    const int a = file.add(uv, R"("componentType":5126,"count":3,"type":"VEC2")");
+    file.attributes += ",\"TEXCOORD_0\":" + std::to_string(a) + ",\"TEXCOORD_1\":" + std::to_string(a);
+    file.primitive = ",\"material\":0";
+    return file;
+}
+
 /// A triangle whose base colour has a texture; `texture` are the texture's members, images[0] is `image`, and `images` are further ones,
 /// beginning with a comma.
 inline Bytes textured(const Bytes& image, const std::string& type, const std::string& texture, const std::string& rest = "",
                       const std::string& images = "") {
-    TriangleFile file;
-    Bytes uv;
-    append<float>(uv, {0, 0, 1, 0, 0, 1});
-    const int at = file.add(uv, R"("componentType":5126,"count":3,"type":"VEC2")");
-    file.attributes += ",\"TEXCOORD_0\":" + std::to_string(at);
-    file.primitive = ",\"material\":0";
+    TriangleFile file = triangle_with_material();
     file.rest = R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{)" + texture +
                 R"(}],"images":[{"uri":"data:)" + type + ";base64," + base64(image) + "\"}" + images + "]" + rest;
     return file.file();

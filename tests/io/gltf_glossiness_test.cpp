@@ -19,12 +19,7 @@ namespace {
 
 /// A triangle whose material has the extension with these members.
 Bytes glossy(const std::string& members, const std::vector<Bytes>& pictures = {}) {
-    TriangleFile file;
-    Bytes uv;
-    append<float>(uv, {0, 0, 1, 0, 0, 1});
-    const int a = file.add(uv, R"("componentType":5126,"count":3,"type":"VEC2")");
-    file.attributes += ",\"TEXCOORD_0\":" + std::to_string(a) + ",\"TEXCOORD_1\":" + std::to_string(a);
-    file.primitive = ",\"material\":0";
+    TriangleFile file = triangle_with_material();
     file.rest = R"(,"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{)" + members + "}}}]";
     std::string images, textures;
     for (std::size_t i = 0; i < pictures.size(); ++i) {

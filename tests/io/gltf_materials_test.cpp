@@ -15,12 +15,7 @@ namespace {
 /// A triangle with the given material members and pictures; textures and images are PNG files in data: URIs.
 Bytes with_material(const std::string& material, const std::vector<Bytes>& pictures = {}, const std::string& textures = "",
                     const std::string& rest = "") {
-    TriangleFile file;
-    Bytes uv;
-    append<float>(uv, {0, 0, 1, 0, 0, 1});
-    const int a = file.add(uv, R"("componentType":5126,"count":3,"type":"VEC2")");
-    file.attributes += ",\"TEXCOORD_0\":" + std::to_string(a) + ",\"TEXCOORD_1\":" + std::to_string(a);
-    file.primitive = ",\"material\":0";
+    TriangleFile file = triangle_with_material();
     file.rest = ",\"materials\":[{" + material + "}]" + rest;
     std::string images;
     for (const Bytes& p : pictures)

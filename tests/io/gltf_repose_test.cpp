@@ -24,14 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-LoadOptions at(double time, const std::string& animation = "", bool keep = false) {
-    LoadOptions options;
-    options.animation = animation;
-    options.time_s = time;
-    options.keep_animations = keep;
-    return options;
-}
-
 template <class T>
 bool same(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);

@@ -218,6 +218,14 @@ inline LoadedScene load_any_ok(const Bytes& bytes, const LoadOptions& options = 
     return *std::move(loaded);
 }
 
+inline LoadedScene read(const std::string& text) { return load_any_ok(to_bytes(text)); }
+
+inline bool is_warned(const LoadedScene& loaded, const char* part) {
+    for (const std::string& warning : loaded.warnings)
+        if (warning.find(part) != std::string::npos) return true;
+    return false;
+}
+
 /// The message of a file that must be refused.
 inline std::string refusal_of(const Bytes& file, ErrorCode code = ErrorCode::bad_input, const LoadOptions& options = strictly()) {
     const auto loaded = load_any(file, options);

@@ -13,14 +13,6 @@ using namespace halflit::test;
 
 namespace {
 
-LoadedScene read(const std::string& text) { return load_any_ok(to_bytes(text)); }
-
-bool is_warned(const LoadedScene& loaded, const char* part) {
-    for (const std::string& warning : loaded.warnings)
-        if (warning.find(part) != std::string::npos) return true;
-    return false;
-}
-
 /// A PLY text of three points with these properties and values behind the coordinates.
 LoadedScene points(const std::string& properties, const std::array<const char*, 3>& values) {
     std::string text =

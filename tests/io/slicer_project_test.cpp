@@ -63,12 +63,6 @@ constexpr std::array<int, 3> kNone{0, 0, 0}, kRed{255, 0, 0}, kGreen{0, 255, 0},
 const Bytes kFilamentColors =
     to_bytes(R"({"a":["#000000"],"filament_colour":["#FF0000","#00FF00","#0000FFFF"],"b":{"filament_colour":["#111111"]}})");
 
-bool is_warned(const LoadedScene& loaded, const char* part) {
-    for (const std::string& warning : loaded.warnings)
-        if (warning.find(part) != std::string::npos) return true;
-    return false;
-}
-
 }  // namespace
 
 TEST_CASE("slicers: parts have their filaments, and helpers are left out", "[io][3mf]") {

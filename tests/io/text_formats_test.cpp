@@ -23,14 +23,6 @@ using namespace halflit::test;
 
 namespace {
 
-LoadedScene read(const std::string& text) { return load_any_ok(to_bytes(text)); }
-
-bool is_warned(const LoadedScene& loaded, const char* part) {
-    for (const std::string& warning : loaded.warnings)
-        if (warning.find(part) != std::string::npos) return true;
-    return false;
-}
-
 std::string text_of_bytes(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 /// All occurrences replaced.

@@ -6,8 +6,8 @@
 // Exit code: 0 agreed, 1 differs by more than the limits, 4 skipped (no llvmpipe here).
 #include "mesa_ids.hpp"
 #include "peer_scenes.hpp"
-#include "raster/debug_view.hpp"
 #include "rule_ids.hpp"
+#include "tests/raster/debug_view.hpp"
 
 #include <cstdio>
 

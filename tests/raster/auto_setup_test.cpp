@@ -3,6 +3,7 @@
 
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
+#include "tests/raster/auto_light.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -10,15 +11,9 @@
 #include <limits>
 
 using namespace halflit;
+using halflit::test::set_up;
 
 namespace {
-
-/// auto_setup(), whose light becomes the scene's.
-AutoSetup set_up(Scene& scene, int width, int height, const AutoOptions& options = {}) {
-    AutoSetup setup = auto_setup(scene, width, height, options);
-    static_cast<Lighting&>(scene) = setup.light;
-    return setup;
-}
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();

@@ -1,8 +1,8 @@
 // Whole pictures against closed forms: alpha test, blending, samples, background, NaN and infinity.
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
-#include "raster/debug_view.hpp"
 #include "raster/view/view.hpp"
+#include "tests/raster/debug_view.hpp"
 #include "tests/raster/kernel_fixture.hpp"
 #include "tests/support/cameras.hpp"
 

@@ -4,6 +4,7 @@
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
 
+#include "tests/raster/auto_light.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/isas.hpp"
@@ -11,15 +12,9 @@
 #include <cmath>
 
 using namespace halflit;
+using halflit::test::set_up;
 
 namespace {
-
-/// auto_setup(), whose light becomes the scene's.
-AutoSetup set_up(Scene& scene, int width, int height, const AutoOptions& options = {}) {
-    AutoSetup setup = auto_setup(scene, width, height, options);
-    static_cast<Lighting&>(scene) = setup.light;
-    return setup;
-}
 
 constexpr int kSize = 256;
 

@@ -36,24 +36,7 @@ TEST_CASE("metamorphic: random scenes have the same bits by every instruction se
 
 TEST_CASE("metamorphic: a region of a random scene is the same part of the whole picture", "[raster][metamorphic]") {
     for (std::uint64_t seed = 101; seed <= 100 + kScenes; ++seed) {
-        Random random(seed);
-        Shot shot = any_shot(seed);
-        const Pixels whole = draw(shot);
-        for (int i = 0; i < 4; ++i) {
-            const Region region = random_region(random, kViewWidth, kViewHeight);
-            shot.settings.region = region;
-            const Pixels part = draw(shot, execution_of(1 + i % 2, 16 << random.index(3), *halflit::default_isa()));
-            Pixels expected;  // whose pixels outside are untouched
-            for (int y = region.y; y < region.y + region.height; ++y)
-                for (int x = region.x; x < region.x + region.width; ++x) {
-                    const auto at = static_cast<std::size_t>(y * kViewWidth + x);
-                    std::copy_n(&whole.rgba8[4 * at], 4, &expected.rgba8[4 * at]);
-                    std::copy_n(&whole.linear[4 * at], 4, &expected.linear[4 * at]);
-                    expected.depth[at] = whole.depth[at];
-                }
-            INFO("seed " << seed << ", region " << region.x << "," << region.y << "," << region.width << "," << region.height);
-            CHECK(differing(expected, part) == 0);
-        }
+        check_regions(seed, any_shot(seed));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "tests/raster/metamorphic_scene.hpp"
 #include "tests/raster/random_trial.hpp"
+#include "tests/support/catch.hpp"
 
 #include <atomic>
 #include <thread>
@@ -56,6 +57,27 @@ inline Execution execution_of(int threads, int tile, Isa isa) {
         };
 #endif
     return execution;
+}
+
+/// Some regions of the shot, by several numbers of threads and sizes of tiles, are the same parts of the whole picture.
+inline void check_regions(std::uint64_t seed, Shot shot) {
+    Random random(seed);
+    const Pixels whole = draw(shot);
+    for (int i = 0; i < 4; ++i) {
+        const Region region = random_region(random, kViewWidth, kViewHeight);
+        shot.settings.region = region;
+        const Pixels part = draw(shot, execution_of(1 + i % 2, 16 << random.index(3), *halflit::default_isa()));
+        Pixels expected;  // whose pixels outside are untouched
+        for (int y = region.y; y < region.y + region.height; ++y)
+            for (int x = region.x; x < region.x + region.width; ++x) {
+                const auto at = static_cast<std::size_t>(y * kViewWidth + x);
+                std::copy_n(&whole.rgba8[4 * at], 4, &expected.rgba8[4 * at]);
+                std::copy_n(&whole.linear[4 * at], 4, &expected.linear[4 * at]);
+                expected.depth[at] = whole.depth[at];
+            }
+        INFO("seed " << seed << ", region " << region.x << "," << region.y << "," << region.width << "," << region.height);
+        CHECK(differing(expected, part) == 0);
+    }
 }
 
 }  // namespace halflit::raster::test

@@ -1,7 +1,7 @@
 // From scene to visible triangles: clipping, culling, binning. Compared with a float64 reference that does none of these.
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
-#include "raster/debug_view.hpp"
+#include "tests/raster/debug_view.hpp"
 #include "tests/raster/visibility_reference.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/random.hpp"

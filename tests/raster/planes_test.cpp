@@ -2,7 +2,7 @@
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 #include "halflit/target.hpp"
-#include "raster/debug_view.hpp"
+#include "tests/raster/debug_view.hpp"
 #include "tests/raster/test_scenes.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/isas.hpp"

@@ -3,6 +3,10 @@
 
 #include "raster/frame_plan.hpp"
 #include "tests/raster/box_shadow.hpp"
+#include "tests/support/isas.hpp"
+
+#include <cstring>
+#include <vector>
 
 namespace halflit::test {
 
@@ -50,6 +54,31 @@ inline raster::FramePlan plan_of(const ShadowSetup& setup, int width = kSide, in
     auto plan = plan_frame(*prepared, prepared->scene(), setup.camera, setup.settings, width, height);
     REQUIRE(plan);
     return std::move(*plan);
+}
+
+/// Each region by every instruction set, by several numbers of threads and sizes of tiles, has the bits of the whole picture.
+inline void check_parts(const City& city, int width, int height, const std::vector<Region>& regions) {
+    const std::vector<float> whole = city.draw(width, height);
+    int turn = 0;
+    for (const Isa isa : available_isas())
+        for (const Region& region : regions) {
+            INFO(isa_name(isa) << ", region " << region.x << ", " << region.y);
+            City part = city;
+            part.settings.region = region;
+            part.settings.execution.isa = isa;
+            part.settings.execution.tile_size = 16 << turn % 3;
+            part.settings.execution.threads = 1 + turn++ % 4;
+            const std::vector<float> drawn = part.draw(width, height);
+            const int right = region.width != 0 ? region.x + region.width : width;
+            const int bottom = region.width != 0 ? region.y + region.height : height;
+            int wrong = 0;
+            for (int y = region.y; y < bottom; ++y)
+                for (int x = region.x; x < right; ++x) {
+                    const auto at = static_cast<std::size_t>(4 * (y * width + x));
+                    wrong += std::memcmp(&drawn[at], &whole[at], 4 * sizeof(float)) != 0;
+                }
+            CHECK(wrong == 0);
+        }
 }
 
 /// Boxes that are larger on all sides, or smaller; those that vanish are left out.

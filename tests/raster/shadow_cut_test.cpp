@@ -140,31 +140,11 @@ TEST_CASE("shadow cut: a region, threads, tiles and instruction sets do not chan
     for (const LightType type : {LightType::directional, LightType::point}) {
         City city(20, type, {1100, 0, -700});
         city.camera = camera_at(to_float(city.foot + Vec3d{3, 6, 4}), to_float(city.foot + Vec3d{-0.5, 0, 0}));
-        const std::vector<float> whole = city.draw(kWidth, kHeight);
         City uncut = city;
         uncut.settings.shadow_terminator_offset = true;
         CHECK(plan_of(city, kWidth, kHeight).shading.shadow_maps[0].texel_size <
               0.02f * plan_of(uncut, kWidth, kHeight).shading.shadow_maps[0].texel_size);
-        int turn = 0;
-        for (const Isa isa : available_isas())
-            for (const Region region : {Region{}, Region{0, 0, 30, 40}, Region{101, 67, 1, 1}, Region{50, 20, 150, 90}}) {
-                INFO(isa_name(isa) << ", region " << region.x << ", " << region.y);
-                City part = city;
-                part.settings.region = region;
-                part.settings.execution.isa = isa;
-                part.settings.execution.tile_size = 16 << turn % 3;
-                part.settings.execution.threads = 1 + turn++ % 4;
-                const std::vector<float> drawn = part.draw(kWidth, kHeight);
-                const int right = region.width != 0 ? region.x + region.width : kWidth;
-                const int bottom = region.width != 0 ? region.y + region.height : kHeight;
-                int wrong = 0;
-                for (int y = region.y; y < bottom; ++y)
-                    for (int x = region.x; x < right; ++x) {
-                        const auto at = static_cast<std::size_t>(4 * (y * kWidth + x));
-                        wrong += std::memcmp(&drawn[at], &whole[at], 4 * sizeof(float)) != 0;
-                    }
-                CHECK(wrong == 0);
-            }
+        check_parts(city, kWidth, kHeight, {Region{}, Region{0, 0, 30, 40}, Region{101, 67, 1, 1}, Region{50, 20, 150, 90}});
     }
 }
 

@@ -2,9 +2,9 @@
 // only for the differences that fixed point makes.
 #pragma once
 
-#include "raster/debug_view.hpp"
 #include "raster/view/projection.hpp"
 #include "reference.hpp"
+#include "tests/raster/debug_view.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // Environment images for tests, and the light that a surface reflects under them, by brute force.
 #pragma once
 
+#include "sh/coefficients.hpp"
 #include "sh/equirect.hpp"
 #include "sh/lobe_error.hpp"
 #include "sh/quadrature.hpp"
@@ -120,6 +121,21 @@ inline std::vector<Vec3d> random_normals(int count, std::uint64_t seed) {
 inline double largest_difference(Vec3d a, Vec3d b) {
     const Vec3d d = a - b;
     return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+}
+
+/// Expansion of fn(direction) -> Vec3d, bands in 1..10, by a quadrature of the given degree: exact if fn is a polynomial of degree up to
+/// `degree` - `bands` + 1, and close if it is smooth.
+template <class Fn>
+sh::RadianceSh project_function(int bands, int degree, Fn&& fn) {
+    sh::RadianceSh out{bands, {}};
+    for (const sh::SphereNode& node : sh::sphere_quadrature(degree)) {
+        double y[sh::kMaxCoefficients];
+        sh::evaluate_basis<sh::kMaxBands>(node.direction, y);
+        const Vec3d value = fn(node.direction) * node.weight;
+        for (int i = 0; i < sh::coefficient_count(bands); ++i)
+            out.c[static_cast<std::size_t>(i)] = out.c[static_cast<std::size_t>(i)] + value * y[i];
+    }
+    return out;
 }
 
 }  // namespace halflit::test

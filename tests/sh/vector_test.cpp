@@ -64,8 +64,3 @@ TEST_CASE("mat4: the determinant is the volume, negative for a mirror", "[sh][ma
     CHECK(determinant3(sample_transform()) == Approx(24.0));
     CHECK(determinant3(scaling({-2, 3, 4})) == -24.0);
 }
-
-TEST_CASE("mat4: the rigid inverse undoes a rotation and a translation", "[sh][mat4]") {
-    const Mat4 m = translation({1, 2, 3}) * rotation({0.5f, 0.5f, 0.5f, 0.5f});
-    CHECK(m * rigid_inverse(m) == Mat4{});
-}

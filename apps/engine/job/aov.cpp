@@ -128,8 +128,6 @@ bool any_named(std::span<const Aov> aovs) {
 
 }  // namespace
 
-std::span<const AovKind> aov_kinds() { return kKinds; }
-
 Result<std::vector<Aov>> parse_aovs(const std::string& text) {
     std::vector<Aov> aovs;
     for (std::size_t begin = 0; begin <= text.size();) {

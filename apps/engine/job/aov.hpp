@@ -41,9 +41,8 @@ struct AovKind {
     bool named = false;        ///< the numbers have names, which are written beside them
     std::string_view meaning;  ///< for documents
 };
-[[nodiscard]] std::span<const AovKind> aov_kinds();
 
-/// One of aov_kinds().
+/// One of the table in aov.cpp.
 using Aov = const AovKind*;
 
 /// "depth,normal" as a list without repeats.

@@ -144,13 +144,6 @@ void Canvas::line(Point from, Point to, double width, Color color) {
     fill(std::vector<Contour>{{from + side, to + side, to - side, from - side}}, color);
 }
 
-void Canvas::dashed_line(Point from, Point to, double width, Color color, double dash, double gap) {
-    const double length = distance(from, to), period = dash + gap;
-    if (!(period >= 1.0) || !(length <= 4 * kCanvasFarthest)) return line(from, to, width, color);
-    const auto at = [&](double along) { return from + (to - from) * (along / length); };
-    for (int i = 0; i * period < length; ++i) line(at(i * period), at(std::min(i * period + dash, length)), width, color);
-}
-
 void Canvas::arrow_head(Point tail, Point tip, double length, Color color) {
     const double whole = distance(tail, tip);
     if (!(whole > 0.0)) return;

@@ -45,8 +45,6 @@ public:
 
     /// A line with square ends at `from` and `to`. Nothing if the two are one point.
     void line(Point from, Point to, double width, Color color);
-    /// Begins with a dash. Lengths in pixels; if a dash with its gap is shorter than one pixel, the line is solid.
-    void dashed_line(Point from, Point to, double width, Color color, double dash, double gap);
     /// A filled triangle with its tip at `tip`, pointing away from `tail`; 0.7 times as wide as long.
     void arrow_head(Point tail, Point tip, double length, Color color);
     /// A line with an arrow head at `to`, five widths long, or half as long as the line if that is less.

@@ -20,7 +20,6 @@ namespace halflit::cli {
 [[nodiscard]] Command golden_command();
 [[nodiscard]] Command lobe_command();
 [[nodiscard]] Command env_command();
-[[nodiscard]] Command figures_command();
 [[nodiscard]] Command trade_command();
 [[nodiscard]] Command playground_command();
 [[nodiscard]] Command mcp_command();

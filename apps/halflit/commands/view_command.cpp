@@ -83,12 +83,8 @@ Result<void> read_click(std::optional<viewer::RehearsalPlan::Pixel>& pixel, cons
 }
 
 Result<void> read_tab(viewer::Tab& tab, const std::string& text) {
-    const std::vector<std::string> names(std::begin(viewer::kTabNames), std::end(viewer::kTabNames));
-    const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end())
-        return fail(ErrorCode::usage, "expected " + joined(names, ", ") + ", found '" + text + "'" + did_you_mean(text, names));
-    tab = static_cast<viewer::Tab>(found - names.begin());
-    return {};
+    const auto place = read_value(raster::named(viewer::kTabNames), text);
+    return place.map([&](double index) { tab = static_cast<viewer::Tab>(static_cast<int>(index)); });
 }
 
 }  // namespace

@@ -196,9 +196,7 @@ Command render_table(RenderLine& o) {
           {"--shard", "I/N|auto[/N]",
            "Draw part I of N, from 0 on: of the frames, of the scenes, or of one picture's rows; auto takes I from Slurm, Kubernetes, AWS "
            "Batch or GNU parallel. The report takes the part's name. See halflit plan and merge",
-           [&o](const std::string& text) {
-               return assign(o.shard, parse_shard(text, [](const char* name) { return std::getenv(name); }));
-           }},
+           parsed(o.shard, parse_shard)},
           {"--skip-existing", "", "Leave pictures alone that are there, so that a run can be taken up again", set_to(o.skip_existing)},
           {"--blank-check", "", "Name pictures in which nothing is seen; if there are any, the exit code is 1", set_to(o.blank_check)},
           {"--aov", "NAME,...", aov_help(), parsed(o.aovs, parse_aovs)},

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <cstdlib>
 
 namespace halflit::cli {
 namespace {
@@ -22,43 +22,39 @@ constexpr Scheduler kSchedulers[] = {{"Slurm", "SLURM_ARRAY_TASK_ID", 0, "SLURM_
                                      {"AWS Batch", "AWS_BATCH_JOB_ARRAY_INDEX", 0, "AWS_BATCH_JOB_ARRAY_SIZE"},
                                      {"GNU parallel", "PARALLEL_SEQ", 1, nullptr}};
 
-Result<const Scheduler*> find_scheduler(const ReadVariable& variable) {
+/// The shard of the task that a scheduler has started. count 0: the scheduler tells it.
+Result<Shard> shard_of_task(std::int64_t count) {
     const Scheduler* found = nullptr;
+    std::string known, there;
     for (const Scheduler& scheduler : kSchedulers) {
-        if (variable(scheduler.task) == nullptr) continue;
-        if (found != nullptr)
-            return fail(ErrorCode::usage,
-                        fmt::format("auto: expected one scheduler in the environment, found {} and {}; I/N names the shard", found->task,
-                                    scheduler.task));
-        found = &scheduler;
+        known += (known.empty() ? "" : ", ") + std::string(scheduler.task);
+        if (std::getenv(scheduler.task) == nullptr) continue;
+        found = there.empty() ? &scheduler : nullptr;
+        there += (there.empty() ? "" : " and ") + std::string(scheduler.task);
     }
-    if (found != nullptr) return found;
-    std::string names;
-    for (const Scheduler& scheduler : kSchedulers) names += fmt::format("{}{}", names.empty() ? "" : ", ", scheduler.task);
-    return fail(ErrorCode::usage, "auto: expected one of the variables " + names + " in the environment, found none");
-}
-
-Result<std::int64_t> read_number(const char* name, const ReadVariable& variable, std::int64_t min, std::int64_t max) {
-    const char* const text = variable(name);
-    const auto number = parse_int(text == nullptr ? "" : text, min, max);
-    if (!number)
+    if (found == nullptr)
         return fail(ErrorCode::usage,
-                    fmt::format("auto: expected {} from {} to {}, found '{}'", name, min, max, text == nullptr ? "" : text));
-    return *number;
-}
-
-Result<std::int64_t> read_count(const Scheduler& scheduler, const ReadVariable& variable) {
-    if (scheduler.count == nullptr)
-        return fail(ErrorCode::usage, fmt::format("expected auto/N, found 'auto': {} does not tell the number of tasks", scheduler.name));
-    const auto count = read_number(scheduler.count, variable, 1, kMostShards);
-    if (!count) return count;
-    // A part of an array, as it is submitted again after failures, has another count.
-    const char* const last = variable("SLURM_ARRAY_TASK_MAX");
-    if (scheduler.task == kSchedulers[0].task && last != nullptr && !parse_int(last, *count - 1, *count - 1))
-        return fail(ErrorCode::usage, fmt::format("expected auto/N, found 'auto' in an array of {} tasks up to {}: it does not tell the "
-                                                  "number of shards",
-                                                  *count, last));
-    return count;
+                    fmt::format("auto: expected one of the variables {} in the environment, found {}; I/N names the shard", known,
+                                there.empty() ? "none" : there));
+    const auto number = [](const char* name, std::int64_t min, std::int64_t max) -> Result<std::int64_t> {
+        const char* const set = std::getenv(name);
+        const std::string_view text = set == nullptr ? "" : set;
+        if (const auto value = parse_int(text, min, max)) return *value;
+        return fail(ErrorCode::usage, fmt::format("auto: expected {} from {} to {}, found '{}'", name, min, max, text));
+    };
+    if (count == 0) {
+        if (found->count == nullptr)
+            return fail(ErrorCode::usage, fmt::format("expected auto/N, found 'auto': {} does not tell the number of tasks", found->name));
+        const auto told = number(found->count, 1, kMostShards);
+        if (!told) return tl::unexpected(told.error());
+        // A part of an array, as it is submitted again after failures, has another count.
+        if (found == kSchedulers && std::getenv("SLURM_ARRAY_TASK_MAX") != nullptr && !number("SLURM_ARRAY_TASK_MAX", *told - 1, *told - 1))
+            return fail(ErrorCode::usage, fmt::format("expected auto/N, found 'auto' in {} tasks of a larger array", *told));
+        count = *told;
+    }
+    const auto task = number(found->task, found->base, found->base + count - 1);
+    if (!task) return tl::unexpected(task.error());
+    return Shard{*task - found->base, count};
 }
 
 }  // namespace
@@ -76,44 +72,22 @@ Region Shard::rows_of(const Region& whole) const {
     return {whole.x, whole.y + edge(index), whole.width, edge(index + 1) - edge(index)};
 }
 
-std::string Shard::name_of(const std::string& path) const {
+std::string Shard::name_of(const std::string& path, const char* number) const {
     const std::size_t name = path.rfind('/') + 1, dot = path.rfind('.');  // npos + 1 is 0
     const std::size_t at = dot == std::string::npos || dot <= name ? path.size() : dot;
-    const std::string total = std::to_string(count);
-    return path.substr(0, at) + fmt::format(".{:0{}}-of-{}", index, total.size(), total) + path.substr(at);
+    const std::string total = std::to_string(count), own = fmt::format("{:0{}}", index, total.size());
+    return path.substr(0, at) + "." + (number == nullptr ? own : number) + "-of-" + total + path.substr(at);
 }
 
-Result<Shard> parse_shard(std::string_view text, const ReadVariable& variable) {
-    const auto wrong = [&] {
-        return fail(ErrorCode::usage,
-                    fmt::format("expected I/N, with I from 0 to N - 1 and N up to {}, auto/N or auto, found '{}'", kMostShards, text));
-    };
+Result<Shard> parse_shard(std::string_view text) {
     const std::size_t slash = text.find('/');
     const std::string_view task = text.substr(0, slash);
-    Shard shard;
-    if (slash != std::string_view::npos) {
-        const auto count = parse_int(text.substr(slash + 1), 1, kMostShards);
-        if (!count) return wrong();
-        shard.count = *count;
-    }
-    if (task != "auto") {
-        const auto index = parse_int(task, 0, shard.count - 1);
-        if (slash == std::string_view::npos || !index) return wrong();
-        shard.index = *index;
-        return shard;
-    }
-    const auto scheduler = find_scheduler(variable);
-    if (!scheduler) return tl::unexpected(scheduler.error());
-    if (slash == std::string_view::npos) {
-        const auto count = read_count(**scheduler, variable);
-        if (!count) return tl::unexpected(count.error());
-        shard.count = *count;
-    }
-    const std::int64_t base = (*scheduler)->base;
-    const auto number = read_number((*scheduler)->task, variable, base, base + shard.count - 1);
-    if (!number) return tl::unexpected(number.error());
-    shard.index = *number - base;
-    return shard;
+    if (task == "auto" && slash == std::string_view::npos) return shard_of_task(0);
+    const auto count = parse_int(slash == std::string_view::npos ? "" : text.substr(slash + 1), 1, kMostShards);
+    if (count && task == "auto") return shard_of_task(*count);
+    if (const auto index = parse_int(task, 0, count.value_or(0) - 1)) return Shard{*index, *count};
+    return fail(ErrorCode::usage,
+                fmt::format("expected I/N, with I from 0 to N - 1 and N up to {}, auto/N or auto, found '{}'", kMostShards, text));
 }
 
 }  // namespace halflit::cli

@@ -3,15 +3,7 @@
 
 #include "apps/engine/request/film_options.hpp"
 #include "apps/halflit/program/engine.hpp"
-#include "halflit/error.hpp"
 #include "halflit/settings.hpp"
-
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
 
 namespace halflit::cli {
 
@@ -23,19 +15,16 @@ struct Shard {
     [[nodiscard]] std::optional<FrameRange> frames_of(const FrameRange& whole) const;
     /// Its rows of a region; shards differ by one row at most. Height 0 where the region has too few.
     [[nodiscard]] Region rows_of(const Region& whole) const;
-    /// The file's name with the shard in front of its extension: "turn.json" becomes "turn.03-of-64.json".
-    [[nodiscard]] std::string name_of(const std::string& path) const;
+    /// The file's name with the shard in front of its extension: "turn.json" becomes "turn.03-of-64.json". number: in place of 03.
+    [[nodiscard]] std::string name_of(const std::string& path, const char* number = nullptr) const;
 };
 
 /// The most shards of a run.
 inline constexpr std::int64_t kMostShards = 1'000'000;
 
-/// Value of an environment variable; null: it is not set.
-using ReadVariable = std::function<const char*(const char* name)>;
-
 /// "I/N" with I from 0 to N - 1, or "auto/N": I is the number of the task that a scheduler put into the environment: SLURM_ARRAY_TASK_ID,
 /// JOB_COMPLETION_INDEX (Kubernetes), AWS_BATCH_JOB_ARRAY_INDEX, or PARALLEL_SEQ (GNU parallel) - 1. "auto" takes N from the environment
 /// too, which Slurm and AWS Batch tell. Fails (usage) for none or several of these, and where a Slurm array is not 0-(N-1).
-[[nodiscard]] Result<Shard> parse_shard(std::string_view text, const ReadVariable& variable);
+[[nodiscard]] Result<Shard> parse_shard(std::string_view text);
 
 }  // namespace halflit::cli

@@ -1,17 +1,18 @@
 // Base64 of data URIs.
 #pragma once
 
-#include "tests/fuzz/target.hpp"
-
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-namespace halflit::fuzz {
+namespace halflit::test {
 
 inline constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-inline std::string encode_base64(View bytes) {
+inline std::string encode_base64(std::span<const std::uint8_t> bytes) {
     std::string out;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t bits = 0;
@@ -22,8 +23,8 @@ inline std::string encode_base64(View bytes) {
 }
 
 /// None for text with other characters.
-inline std::optional<Bytes> decode_base64(std::string_view text) {
-    Bytes out;
+inline std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text) {
+    std::vector<std::uint8_t> out;
     std::uint32_t bits = 0;
     int have = 0;
     while (text.ends_with('=')) text.remove_suffix(1);
@@ -39,4 +40,4 @@ inline std::optional<Bytes> decode_base64(std::string_view text) {
     return out;
 }
 
-}  // namespace halflit::fuzz
+}  // namespace halflit::test

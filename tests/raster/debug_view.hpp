@@ -1,4 +1,4 @@
-// Debug views of the visibility stage, before any shading: for tests and tools.
+// Views of the visibility stage, before any shading.
 #pragma once
 
 #include "halflit/camera.hpp"

@@ -1,4 +1,4 @@
-#include "raster/debug_view.hpp"
+#include "tests/raster/debug_view.hpp"
 
 #include "raster/check_execution.hpp"
 #include "raster/detail/guarded.hpp"
