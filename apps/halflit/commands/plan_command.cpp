@@ -2,6 +2,7 @@
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/basics/file_names.hpp"
 #include "apps/engine/basics/spelling.hpp"
+#include "apps/engine/request/setting_flags.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/farm/render_line.hpp"
 #include "apps/halflit/flags/command_line.hpp"

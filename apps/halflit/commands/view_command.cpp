@@ -4,6 +4,7 @@
 #include "apps/engine/basics/median.hpp"
 #include "apps/engine/basics/spelling.hpp"
 #include "apps/engine/job/render_job.hpp"
+#include "apps/engine/request/setting_flags.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/text_file.hpp"
