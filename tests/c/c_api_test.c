@@ -1822,6 +1822,54 @@ static void test_forged_scenes(void) {
     free_cube(&cube);
 }
 
+static void test_calls(void) {
+    halflit_scene* scene = NULL;
+    halflit_answer* answer = NULL;
+    int32_t width = 0, height = 0;
+    CHECK_OK(halflit_scene_create_demo(&scene));
+    CHECK_OK(halflit_call("look", "{\"size\": [64, 48], \"view\": [\"front\", \"iso\"]}", scene, &answer));
+    CHECK(strstr(halflit_answer_report(answer), "\"schema\":\"halflit.look/1\"") != NULL);
+    CHECK(halflit_answer_notes(answer)[0] != '\0');
+    CHECK(halflit_answer_picture(answer, &width, &height) != NULL && width > 64 && height > 48);
+    halflit_answer_destroy(answer);
+    // The picture of a call is that of the frame.
+    CHECK_OK(halflit_call("render", "{\"path\": \"demo\", \"size\": \"64x48\", \"hidden_edges\": \"dashed\"}", NULL, &answer));
+    CHECK(halflit_answer_picture(answer, &width, NULL) != NULL && width == 64 && halflit_answer_is_good(answer) == 1);
+    halflit_answer_destroy(answer);
+    CHECK_OK(halflit_call("measure", NULL, scene, &answer));
+    CHECK(halflit_answer_picture(answer, &width, &height) == NULL && width == 0 && height == 0);
+    halflit_answer_destroy(answer);
+    CHECK_FAILS(halflit_call("loook", NULL, scene, &answer), HALFLIT_ERROR_USAGE, "did you mean look");
+    CHECK_FAILS(halflit_call("look", "[]", scene, &answer), HALFLIT_ERROR_USAGE, "JSON object");
+    CHECK_FAILS(halflit_call("look", "{", scene, &answer), HALFLIT_ERROR_USAGE, "JSON object");
+    CHECK_FAILS(halflit_call("look", "{\"path\": \"demo\"}", scene, &answer), HALFLIT_ERROR_USAGE, "either a scene or the path");
+    CHECK_FAILS(halflit_call("look", "{}", NULL, &answer), HALFLIT_ERROR_USAGE, "'path'");
+    CHECK_FAILS(halflit_call(NULL, "{}", scene, &answer), HALFLIT_ERROR_USAGE, "name is null");
+    CHECK_OK(halflit_call_check("render", "{\"azimuth\": 20}"));
+    CHECK_FAILS(halflit_call_check("render", "{\"azimuth\": 20, \"camera\": 0}"), HALFLIT_ERROR_USAGE, "cannot be combined");
+    halflit_answer_destroy(NULL);
+    halflit_scene_destroy(scene);
+}
+
+static void test_values_as_text(void) {
+    halflit_settings settings;
+    float color[4];
+    uint16_t codes[3];
+    double range[2];
+    const float depth[3] = {2.0f, INFINITY, 4.0f};
+    CHECK_OK(halflit_settings_init(&settings, sizeof settings));
+    CHECK_OK(halflit_settings_read(&settings, "tone_curve", "aces"));
+    CHECK(settings.tone_curve == HALFLIT_TONE_ACES);
+    CHECK_OK(halflit_settings_read(&settings, "shadow_size", "auto"));
+    CHECK_FAILS(halflit_settings_read(&settings, "edge_width", "99"), HALFLIT_ERROR_USAGE, "edge_width: expected a number from 0.25 to 64");
+    CHECK_FAILS(halflit_settings_read(&settings, "edge_widht", "1"), HALFLIT_ERROR_USAGE, "unknown setting");
+    CHECK_OK(halflit_read_color("Red", color));
+    CHECK(color[0] == 1.0f && color[1] == 0.0f && color[3] == 1.0f);
+    CHECK_FAILS(halflit_read_color("rot", color), HALFLIT_ERROR_USAGE, "expected a colour");
+    CHECK_OK(halflit_depth_codes(depth, 3, codes, range));
+    CHECK(codes[0] == 1 && codes[1] == 0 && codes[2] == 65535 && range[0] == 2.0 && range[1] == 4.0);
+}
+
 int main(void) {
     CHECK(halflit_last_error()[0] == '\0');
     CHECK(strchr(halflit_version(), '.') != NULL && halflit_pixel_epoch() >= 1);
@@ -1844,6 +1892,8 @@ int main(void) {
         test_recentre();
         test_parts_of_a_file();
         test_files_with_z_up();
+        test_calls();
+        test_values_as_text();
     }
     test_saved_scenes();
     test_forged_scenes();
