@@ -158,7 +158,7 @@ class Colours(unittest.TestCase):
             self.assertEqual(halflit.Material(base_color=name), halflit.Material(base_color=code))
         picture = halflit.Scene().render(4, background="teal")
         self.assertEqual(picture[0, 0].tolist(), [0, 128, 128, 255])
-        with self.assertRaisesRegex(halflit.UsageError, "a name such as white"):
+        with self.assertRaisesRegex(halflit.UsageError, "expected a colour"):
             halflit.Material(base_color="whitest")
 
 

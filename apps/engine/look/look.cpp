@@ -9,11 +9,11 @@
 #include "apps/engine/request/camera_file.hpp"
 #include "sh/time_limit.hpp"
 
+#include "apps/io/files/in_parts.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <future>
-#include <system_error>
 #include <utility>
 
 namespace halflit::engine {
@@ -46,19 +46,6 @@ void set_defaults(LookOptions& options) {
     if (!options.fit_px) {
         const PictureSize size = options.size.value_or(usual_size(options));
         options.fit_px = PictureSize{std::min(kMargin.width, size.width / 5), std::min(kMargin.height, size.height / 5)};
-    }
-}
-
-/// Measures the scene while it is drawn, within the time that this thread has. The scene must stay until the result is taken.
-std::future<Result<Json>> measure_beside(const RenderJob& job) {
-    const auto measure = [&job, bounds = TimeLimit::bounds()] {
-        const TimeLimit limit(bounds);
-        return measures_json(job);
-    };
-    try {
-        return std::async(std::launch::async, measure);
-    } catch (const std::system_error&) {
-        return std::async(std::launch::deferred, measure);  // no thread can be started
     }
 }
 
@@ -179,23 +166,32 @@ Result<LookResult> look(const LookOptions& given) {
     auto made = look_job(options);
     if (!made) return tl::unexpected(made.error());
     RenderJob& job = *made;
-    auto measuring = measure_beside(job);
     Renderer renderer;
     const ShotPlanes planes{.picture = options.sheet || !options.folder.empty()};
-    auto views = draw_views(job, renderer, options, planes);
-    if (!views) return tl::unexpected(views.error());
-    std::vector<ViewShot>& shots = *views;
-    Renderer alone;  // keeps what the pictures' renderer has
+    Result<std::vector<ViewShot>> views;
     std::optional<Certificate> certificate;
-    if (options.certify > 0) {
+    const auto draw = [&]() -> Result<void> {
+        views = draw_views(job, renderer, options, planes);
+        if (!views || options.certify == 0) return {};
         // Views are added until each triangle is seen.
-        auto certified = certify(job, renderer, std::move(shots), {options.certify, static_cast<std::size_t>(options.most_views), planes});
+        auto certified = certify(job, renderer, std::move(*views), {options.certify, static_cast<std::size_t>(options.most_views), planes});
         if (!certified) return tl::unexpected(certified.error());
         certificate = std::move(*certified);
-        shots = std::move(certificate->shots);
-    }
-    const auto measures = measuring.get();
+        views = std::move(certificate->shots);
+        return {};
+    };
+    // The scene is measured while it is drawn.
+    Result<Json> measures;
+    Result<void> drawn;
+    io::detail::in_parts(2, io::detail::parts_of(2, 1, options.execution.threads), [&](std::size_t, std::size_t begin, std::size_t end) {
+        if (begin == 0) drawn = draw();
+        if (end == 2) measures = measures_json(job);
+    });
+    if (!drawn) return tl::unexpected(drawn.error());
+    if (!views) return tl::unexpected(views.error());
     if (!measures) return tl::unexpected(measures.error());
+    const std::vector<ViewShot>& shots = *views;
+    Renderer alone;  // keeps what the pictures' renderer has
     const auto contents = count_parts(job, alone, shots, kMostAlone);
     if (!contents) return tl::unexpected(contents.error());
     LookResult result;

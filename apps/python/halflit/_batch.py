@@ -5,22 +5,21 @@ import os
 import threading
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Any, Deque, Dict, Iterable, Iterator, List, Tuple, TypeVar
+from typing import Any, Callable, Deque, Dict, Iterable, Iterator, List, Tuple, TypeVar
 
 import numpy as np
 
 from ._errors import CancelledError, UsageError
-from ._execution import begins_helper
 from ._frame import draw_setup, frames, view_of
 from ._geometry import plain_material
 from ._mesh import is_unlit
 from ._options import KNOWN, check_names
 from ._picture import Picture
-from ._scene import Scene
-from ._setup import checked_size, choose
+from ._setup import choose
 from ._target import names_of
+from ._threads import begins_helper
 from ._types import Array
-from ._values import shown, whole
+from ._values import checked_size, shown, whole
 
 T = TypeVar("T")
 
@@ -44,7 +43,7 @@ def drawn_ahead(pictures: Iterator[T], count: int) -> Iterator[T]:
         pool.shutdown(wait=True)
 
 
-def draw_arrays(scene: Scene, cameras: List[Any], size: Any, light: str, options: Dict[str, Any]) -> Dict[str, Array]:
+def draw_arrays(scene: Any, cameras: List[Any], size: Any, light: str, options: Dict[str, Any]) -> Dict[str, Array]:
     """The arrays of Scene.render_arrays()."""
     refused = ("camera", "azimuth", "elevation", "view", "fit", "setup", "out")
     check_names(options, [name for name in KNOWN if name not in refused], "render_arrays")
@@ -69,8 +68,8 @@ class _MeshDrawer:
     """A scene that has one mesh after another. Each is set up as render() does, so that no picture depends on the mesh before. The renderer
     keeps what does not depend on the mesh."""
 
-    def __init__(self, size: Tuple[int, int], material: Any, up: Any, options: Dict[str, Any]) -> None:
-        self.scene, self.size, self.material, self.options = Scene(up), size, material, options
+    def __init__(self, scene: Any, size: Tuple[int, int], material: Any, options: Dict[str, Any]) -> None:
+        self.scene, self.size, self.material, self.options = scene, size, material, options
         self.plain: Any = None  # whether the last mesh had the plain material, lit (False) or unlit
         self.is_placed = False  # by a matrix of its own
 
@@ -117,17 +116,19 @@ def _arguments(mesh: Any, index: int) -> Dict[str, Any]:
     return dict(mesh)
 
 
-def draw_meshes(meshes: Iterable[Any], size: Any, material: Any, up: Any, options: Dict[str, Any]) -> Iterator[Picture]:
-    """The pictures of halflit.render_meshes(), in order."""
+def draw_meshes(
+    make_scene: Callable[[], Any], meshes: Iterable[Any], size: Any, material: Any, options: Dict[str, Any]
+) -> Iterator[Picture]:
+    """The pictures of halflit.render_meshes(), in order. Each thread has a scene of its own."""
     check_names(options, [name for name in KNOWN if name not in ("camera", "setup", "out")], "render_meshes")
     threads = whole(options.get("threads") or 0, "threads", 0, 4096)
     if threads == 0:
         threads = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return _drawn_meshes(meshes, checked_size(size), threads, material, up, {**options, "threads": 1})
+    return _drawn_meshes(make_scene, meshes, checked_size(size), threads, material, {**options, "threads": 1})
 
 
 def _drawn_meshes(
-    meshes: Iterable[Any], size: Any, threads: int, material: Any, up: Any, options: Dict[str, Any]
+    make_scene: Callable[[], Any], meshes: Iterable[Any], size: Any, threads: int, material: Any, options: Dict[str, Any]
 ) -> Iterator[Picture]:
     own, stopped = threading.local(), threading.Event()
 
@@ -135,7 +136,7 @@ def _drawn_meshes(
         if stopped.is_set():
             raise CancelledError("a picture before was stopped")
         if not hasattr(own, "drawer"):
-            own.drawer = _MeshDrawer(size, material, up, options)
+            own.drawer = _MeshDrawer(make_scene(), size, material, options)
         try:
             picture: Picture = own.drawer.draw(mesh, index)
         except CancelledError:  # by Ctrl-C, whose exception the main thread may not have seen yet

@@ -17,6 +17,7 @@ from typing import Any, Dict, List
 from ._declarations import CONSTANTS as CONSTANTS
 from ._declarations import FUNCTIONS, STRUCTS
 from ._errors import CancelledError, UsageError, made
+from ._threads import is_for_main
 from ._values import real, shown, whole
 
 VERSION = "0.1.0"  #: of the package, and of the library that it needs
@@ -198,15 +199,10 @@ _LONG = frozenset((
     "scene_set_material", "scene_pose", "scene_get_box", "scene_add_file", "scene_add_file_memory", "camera_frame", "camera_views",
     "choose_picture", "call",
 ))  # fmt: skip
-_is_for_main: Any = None
-
 
 def stops_at_interrupt() -> bool:
     """Ctrl-C ends a call of this thread: Python's own handler of it is in place, and runs as soon as the library returns."""
-    global _is_for_main
-    if _is_for_main is None:
-        from ._execution import is_for_main as _is_for_main  # which needs this module
-    return bool(_is_for_main()) and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    return is_for_main() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def _let_handlers_run(code: int) -> None:

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import json
 import os
 from typing import Any, Dict, List, Optional
 
@@ -23,6 +22,8 @@ class Answer:
     picture: Optional[pictures.Picture]  #: uint8 (height, width, 4); None where the call draws none
 
     def __init__(self, handle: _c.Handle) -> None:
+        import json  # which takes a tenth of halflit's own import
+
         self.report = json.loads(_c.function("answer_report")(handle).decode())
         self.notes = _c.text_of(_c.function("answer_notes")(handle)).splitlines()
         self.good = bool(_c.function("answer_is_good")(handle))
@@ -62,6 +63,8 @@ def call(name: str, source: Any = None, /, **arguments: Any) -> Answer:
     command, with underscores for hyphens, and with the values that the program takes: call("look", "part.stl", view=["front", "iso"],
     size=(640, 480), hidden_edges="dashed").
     """
+    import json
+
     scene: Any = None
     with contextlib.ExitStack() as made:
         if isinstance(source, (str, os.PathLike)):

@@ -11,7 +11,7 @@ from ._lazy import np
 from ._members import CameraMembers
 from ._record import Record
 from ._types import Array, Point, Unpack, Up, ViewOf
-from ._values import finite, real, reals, shown, up_axis
+from ._values import checked_size, finite, real, reals, shown, up_axis
 
 
 class Camera(Record):
@@ -156,14 +156,12 @@ class Camera(Record):
         picture. options: zoom, fov, orthographic and fit, as in render().
         """
         from ._options import check_names
-        from ._scene_base import SceneBase
-        from ._setup import checked_size
-        from ._views import views_of
 
-        if not isinstance(scene, SceneBase):
+        if not hasattr(scene, "_views_of"):
             raise UsageError(f"scene: expected a Scene, found {shown(scene)}")
         check_names(options, ("zoom", "fov", "orthographic", "fit"), "Camera.view")
-        return views_of(scene, [view], checked_size(size), options)[0]
+        made: Camera = scene._views_of([view], checked_size(size), options)[0]
+        return made
 
     @classmethod
     def from_intrinsics(cls, K: Any, size: Any, R: Any, t: Any, first_pixel: float = 0, **members: Unpack[CameraMembers]) -> Camera:
@@ -174,7 +172,6 @@ class Camera(Record):
         have their corners at whole numbers. Draw pictures of that size, or of its shape.
         """
         from ._arrays import numbers
-        from ._setup import checked_size
 
         given = []
         for value, shape, name in ((K, (3, 3), "K"), (R, (3, 3), "R"), (t, (3,), "t")):

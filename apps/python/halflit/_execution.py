@@ -12,23 +12,7 @@ from typing import Any, Callable, Dict, Iterator, Optional
 from . import _c
 from ._errors import CancelledError, UsageError
 from ._options import EXECUTION
-
-_CALLING = threading.local()  # lock: of the scene whose frame runs a callback in this thread
-
-
-def is_for_main() -> bool:
-    """The main thread draws, or waits for the frames of this thread."""
-    return threading.current_thread() is threading.main_thread() or getattr(_CALLING, "is_for_main", False)
-
-
-def _draws_for_main() -> None:
-    _CALLING.is_for_main = True
-
-
-def begins_helper() -> Optional[Callable[[], None]]:
-    """What a thread has to call first whose frames this thread waits for: if this is the main thread, Ctrl-C ends them too."""
-    return _draws_for_main if is_for_main() else None
-
+from ._threads import CALLING
 
 class SceneLock:
     """One thread at a time uses a scene. The callbacks of its frame cannot: the frame would wait for itself."""
@@ -39,7 +23,7 @@ class SceneLock:
         _LOCKS.add(self)
 
     def __enter__(self) -> None:
-        if getattr(_CALLING, "lock", None) is self:
+        if getattr(CALLING, "lock", None) is self:
             raise UsageError("progress and cancelled cannot use the scene that is drawn")
         if self._lost:
             raise UsageError("another thread used this scene when the process was forked: make it anew in this process")
@@ -168,12 +152,12 @@ class Execution:
             signal.signal(signal.SIGINT, signal.default_int_handler)
 
     def _guarded(self, function: Any, *arguments: Any) -> Any:
-        before = getattr(_CALLING, "lock", None)
-        _CALLING.lock = self.lock
+        before = getattr(CALLING, "lock", None)
+        CALLING.lock = self.lock
         try:
             return function(*arguments) if function is not None and self.raised is None else None
         except BaseException as error:  # KeyboardInterrupt too: the frame ends, then it is raised
             self.raised = error
             return None
         finally:
-            _CALLING.lock = before
+            CALLING.lock = before

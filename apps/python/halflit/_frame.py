@@ -12,9 +12,9 @@ from ._errors import UsageError, warn
 from ._execution import Execution
 from ._options import KNOWN, VIEW, apply_settings, check_names
 from ._picture import Picture
-from ._setup import Setup, checked_size, choose, exposure_of, given_camera, kept
+from ._setup import Setup, choose, exposure_of, given_camera, kept
 from ._target import Target
-from ._values import real, shown
+from ._values import checked_size, real, shown
 from ._views import USUAL_SIZE, views_of
 
 

@@ -87,7 +87,7 @@ def render_meshes(
 
     if not hasattr(meshes, "__iter__") or isinstance(meshes, (str, bytes, dict)):
         raise UsageError(f"meshes: expected an iterable of (vertices, faces) or dicts, found {shown(meshes)}")
-    return draw_meshes(meshes, size, material, up, dict(options))
+    return draw_meshes(lambda: Scene(up), meshes, size, material, dict(options))
 
 
 def refuse(keywords: Dict[str, Any], of: str) -> None:

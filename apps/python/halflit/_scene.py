@@ -211,6 +211,11 @@ class Scene(Geometry, Lighting):
         with self._lock:
             return draw(self, size, dict(options))
 
+    def _views_of(self, views: Sequence[Any], size: Any, options: Dict[str, Any]) -> List[Camera]:
+        from ._views import views_of
+
+        return views_of(self, views, size, options)
+
     def render_batch(
         self, cameras: Iterable[Any], size: Size = None, *, light: BatchLight = "fixed", ahead: int = 0, **options: Unpack[PictureOptions]
     ) -> Iterator[pictures.Picture]:

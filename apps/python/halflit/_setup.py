@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import ctypes
-import json
 import math
 import re
 from typing import Any, Dict, Iterable, List, NoReturn, Optional, Tuple
@@ -14,7 +13,7 @@ from ._errors import UsageError
 from ._lazy import np
 from ._options import VIEW, WHOLE_SCENE, check_names, number_text
 from ._record import chosen
-from ._values import finite, listed, real, shown, sized
+from ._values import checked_size, finite, listed, real, shown, sized
 from ._views import has_parallel_rays, margins, views_of
 
 
@@ -75,18 +74,6 @@ def check_view(options: Iterable[str]) -> None:
     check_names(options, [name for name in VIEW if name != "setup"], "setup")
 
 
-def checked_size(size: Any) -> Tuple[int, int]:
-    if isinstance(size, (int, np.integer)):
-        size = (size, size)
-    found = sized(size, "size")
-    if len(found) != 2:
-        raise UsageError(f"size: expected (width, height) in pixels, or the side of a square, found {shown(size)}")
-    width, height = found
-    if min(width, height) < 1 or width * height > 2**28:
-        raise UsageError(f"size: expected 1 to 2^28 pixels, found {width} x {height}")
-    return width, height
-
-
 def exposure_of(options: Dict[Any, Any]) -> Tuple[Optional[float], float]:
     """The factor that exposure or ev says, None: neither; and the stops that are added to it."""
     exposure, ev = options.get("exposure"), options.get("ev")
@@ -136,6 +123,8 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
 
 def check_view_of(options: Dict[Any, Any], size: Optional[Tuple[int, int]]) -> None:
     """Fails as the program does for the keywords of a view."""
+    import json  # which takes a tenth of halflit's own import
+
     arguments = {name: options[name] for name in WHOLE_SCENE if options.get(name) is not None}
     for name in ("azimuth", "elevation", "zoom"):
         if name in arguments:

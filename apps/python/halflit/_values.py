@@ -94,3 +94,15 @@ def up_axis(name: str) -> int:
     if not isinstance(name, str) or name not in UP_AXES:
         raise UsageError(f"up: expected one of {', '.join(UP_AXES)}, found {shown(name)}")
     return 1 + UP_AXES.index(name)
+
+
+def checked_size(size: Any) -> Tuple[int, int]:
+    if hasattr(size, "__index__"):
+        size = (size, size)
+    found = sized(size, "size")
+    if len(found) != 2:
+        raise UsageError(f"size: expected (width, height) in pixels, or the side of a square, found {shown(size)}")
+    width, height = found
+    if min(width, height) < 1 or width * height > 2**28:
+        raise UsageError(f"size: expected 1 to 2^28 pixels, found {width} x {height}")
+    return width, height
