@@ -658,8 +658,8 @@ typedef struct halflit_settings {
     /// factor on the light that all surfaces emit (not on colours of unlit materials) (1)
     float emission_scale;
     /// HALFLIT_EDGES: Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of
-    /// triangles hide them, glass does not; lines lie on surfaces that they touch. Points at one place are one, as files split
-    /// vertices. (none)
+    /// triangles hide them, glass does not. A line that touches a surface is in front of it. Vertices at one position count as one,
+    /// because files split vertices. (none)
     int32_t edges;
     /// HALFLIT_HIDDEN_EDGES: edges behind surfaces (none)
     int32_t hidden_edges;
