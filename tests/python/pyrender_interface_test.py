@@ -288,7 +288,7 @@ class Flags(unittest.TestCase):
 
 
 class Brightness(unittest.TestCase):
-    """The light of pyrender's shading where it has a closed form: a rough dielectric that faces lamp and camera."""
+    """The light of pyrender's shading where it has a closed form: a rough dielectric that faces light and camera."""
 
     def check(self, scene, light, tolerance=1.5):
         color, _ = draw(scene, size=33)
