@@ -27,7 +27,7 @@ struct Size {
 };
 constexpr Size kUsual = {1920, 1080};
 
-/// What a row draws.
+/// The scene of a row.
 struct Row {
     std::function<BenchScene(float)> make;  ///< from the picture's width / height
     Size size = kUsual;

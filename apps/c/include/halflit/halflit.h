@@ -678,8 +678,8 @@ typedef struct halflit_settings {
     int32_t reserved[2];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
-/// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message of
-/// a wrong value is the program's.
+/// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message
+/// of a wrong value is the program's.
 HALFLIT_C_API int32_t halflit_settings_read(halflit_settings* settings, const char* name, const char* value);
 
 // ---- what a picture shows ----------------------------------------------------------------------------------------------
@@ -692,7 +692,7 @@ typedef struct halflit_lighting halflit_lighting;
 /// both. NEVER. UNDER_LIGHTS: as FOR_DARK, and a share of the studio where the scene has lights of a known unit.
 enum { HALFLIT_STUDIO_FOR_DARK = 0, HALFLIT_STUDIO_ALWAYS = 1, HALFLIT_STUDIO_NEVER = 2, HALFLIT_STUDIO_UNDER_LIGHTS = 3 };
 
-/// What the caller of halflit_choose_picture() decides; the rest is chosen. Defaults in parentheses.
+/// Decisions of the caller of halflit_choose_picture(); the rest is chosen. Defaults in parentheses.
 typedef struct halflit_picture_request {
     size_t size;
     const halflit_camera* camera;     ///< the view; null: see scene_camera (null)
