@@ -148,8 +148,8 @@ std::string unseen_text(const Comparison& c) {
         text +=
             fmt::format(" The distance between the surfaces does not depend on views: no point of one is farther than {} from the other.",
                         with_unit(c.models.distance->at_most(), c.unit));
-    text += fmt::format(
-        " Colours that differ by at most {} codes count as equal. Faces that are turned show only in the numbers of edges.", c.max_codes);
+    text += fmt::format(" Colours that differ by at most {} codes count as equal. Faces that are turned show only in the numbers of edges.",
+                        c.max_codes);
     if (c.models.a.points + c.models.a.lines + c.models.b.points + c.models.b.lines > 0)
         text += " Points and lines are compared by pixels and by their number.";
     return text;
