@@ -8,7 +8,7 @@ namespace halflit {
 
 using namespace raster;
 
-/// What is kept of the edges between frames.
+/// Data of the edges that are kept between frames.
 struct Renderer::Impl::EdgeDrawing {
     ModelEdges edges;
     SceneRevision of;  ///< the scene that they were found in

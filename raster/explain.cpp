@@ -39,7 +39,7 @@ struct PixelPlanes {
     std::array<float, 3> normal{}, albedo{}, position{};
 };
 
-/// What a drawing of one pixel gives: light, multiplied by alpha if asked for, and alpha.
+/// Result of drawing one pixel: light, multiplied by alpha if asked for, and alpha.
 struct DrawnPixel {
     Rgb3 linear{};
     double alpha = 0;

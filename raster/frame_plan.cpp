@@ -197,8 +197,8 @@ View picture_view(const Camera& camera, int width, int height, const Region& reg
     return view;
 }
 
-/// What the picture sees, if shadows are looked up there alone. Light at corners or centres of triangles reads them anywhere, and so do
-/// look-ups that are moved onto the smooth surface, by up to a triangle's size.
+/// The volume that the picture sees, if shadows are looked up there alone. Light at corners or centres of triangles reads them anywhere,
+/// and so do look-ups that are moved onto the smooth surface, by up to a triangle's size.
 std::optional<SeenVolume> looked_up_where_seen(const PreparedData& scene, const Camera& camera, const ShadingSettings& options,
                                                const Settings& settings, const View& picture) {
     const float aspect = picture.viewport.half_width / picture.viewport.half_height;
@@ -221,7 +221,7 @@ Settings beside_sky(const Lighting& light, Settings settings) {
     return settings;
 }
 
-/// What stands for the light of the surroundings.
+/// Directions or grid that stand for the light of the surroundings.
 struct SkyPlan {
     std::vector<LightPlan> lights;
     int directions = 0;

@@ -1,4 +1,4 @@
-// What a Renderer keeps, and the steps of a frame.
+// Members of a Renderer, and the steps of a frame.
 #pragma once
 
 #include "halflit/renderer.hpp"

@@ -67,7 +67,7 @@ Mat4 look_at(Vec3f eye, Vec3f target, Vec3f up) {
     if (zero(back)) back = {0, 0, 1};
     const Vec3d upward = unit(to_double(up));
     Vec3d right = cross(upward, back);
-    // Of a nearly parallel `up` only rounding errors would be left.
+    // A nearly parallel `up` would leave only rounding errors.
     if (!(length(right) > 1e-6)) right = cross(least_axis(back), back);
     right = unit(right);
     return {{column(right, 0), column(cross(back, right), 0), column(back, 0), {eye.x, eye.y, eye.z, 1}}};

@@ -32,7 +32,7 @@ public:
         std::atomic<std::int64_t>* work = nullptr;  ///< what is left of a WorkLimit; null: none
     };
 
-    /// Of nested limits the earlier one holds. 0: no limit of its own. cancelled: in place of the outer one, which stays if it is null or
+    /// The earliest of nested limits holds. 0: no limit of its own. cancelled: in place of the outer one, which stays if it is null or
     /// empty. It has to outlive this object.
     HALFLIT_API explicit TimeLimit(double seconds, const Cancelled* cancelled = nullptr);
     /// For work that began on another thread, with its limit. It replaces this thread's limit, which may belong to other work.

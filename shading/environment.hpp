@@ -35,7 +35,7 @@ struct Environment {
     /// make a new environment instead of editing this one.
     std::uint64_t id = 0;
     sh::RadianceSh radiance;  ///< turned by rotate_rad
-    /// Of the image without the suns and before any rotation; null: darkness.
+    /// Light of the image without the suns and before any rotation; null: darkness.
     std::shared_ptr<const shading::ImageLight> light;
     bool calibrated = false;           ///< as in EnvironmentImage
     std::vector<Light> suns;           ///< directional, colour premultiplied by 1/pi

@@ -1,4 +1,4 @@
-// What an image's light takes time to make, and no turn of the image changes.
+// The parts of an image's light that take time to make and that no turn of the image changes.
 #pragma once
 
 #include "sh/coefficients.hpp"

@@ -231,7 +231,7 @@ ReflectionMap make_reflection_map(const sh::EquirectView& image, const ForEachRo
     int most = kLeastReflectionRows;
     while (most < kMostReflectionRows && most < source.height) most *= 2;
     const auto rows_of = [&](int k) { return std::clamp(kMostReflectionRows >> k, kLeastReflectionRows, most); };
-    // What bumps of 147 degrees and more have blurred needs fewer.
+    // Maps blurred by bumps of 147 degrees and more need fewer.
     const auto blurred_rows = [&](int k) { return k < 8 ? rows_of(k) : kLeastReflectionRows / 2; };
 
     std::vector<Globe> blurs;

@@ -1,4 +1,4 @@
-// What is measured of a texture, for bounds on the error of filtering.
+// Measures of a texture, for bounds on the error of filtering.
 #include "sh/config.hpp"
 #include "sh/fp_environment.hpp"
 #include "shading/texture_texels.hpp"

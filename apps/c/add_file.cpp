@@ -19,7 +19,7 @@ public:
     explicit FilePlace(const Placing& matrix) : matrix_(matrix) {}
     [[nodiscard]] Vec3d direction(Vec3d v) const { return (matrix_.axes[0] * v.x + matrix_.axes[1] * v.y) + matrix_.axes[2] * v.z; }
     [[nodiscard]] Vec3d point(Vec3d p) const { return direction(p) + matrix_.place; }
-    /// Of length 1, for cameras and lights, which have no scale.
+    /// The vector with length 1, for cameras and lights, which have no scale.
     [[nodiscard]] Vec3d unit(Vec3d v) const {
         const Vec3d turned = direction(v);
         const double size = length(turned);

@@ -1,4 +1,4 @@
-// What both files of conversions use.
+// Shared by both files of conversions.
 #pragma once
 
 #include "apps/c/convert.hpp"

@@ -145,7 +145,7 @@ Result<Settings> settings(const halflit_settings* given) {
 
 namespace {
 
-/// What halflit_view and halflit_picture_request say of a view.
+/// Members of a view that halflit_view and halflit_picture_request share.
 template <class Struct>
 ViewSettings view_settings(const Struct& from) {
     return {.azimuth_deg = from.azimuth_deg,

@@ -1,5 +1,5 @@
 // The caller's world and the one that is drawn. What is passed in and returned has the coordinates of the file, or of the caller's arrays.
-// What is drawn has y up, lies near the origin and is neither tiny nor huge.
+// The scene that is drawn has y up, lies near the origin and is neither tiny nor huge.
 #pragma once
 
 #include "halflit/halflit.h"

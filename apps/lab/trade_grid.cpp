@@ -82,7 +82,7 @@ void add_alone(Collector& list, const TradeSpace& space, const TradeChoice& exac
         choice.shadow_size = kind.size;
         list.add(choice);
     }
-    // What is cheap and seldom seen, together.
+    // Cheap settings whose errors are seldom seen, together.
     TradeChoice cheap = exact;
     cheap.samples = 1;
     if (space.textures) cheap.anisotropy = 1;

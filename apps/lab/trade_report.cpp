@@ -151,7 +151,7 @@ std::vector<std::string> trade_verdict(const std::vector<TradeRow>& rows, const 
         return row == nullptr ? std::string("nothing") : fmt::format("{}, time {:.2f}", row->name, row->ratio);
     };
     std::vector<std::string> lines{"free (within 0.1 codes): " + told(best(kFree)), "for one code: " + told(best(kLittle))};
-    // What costs accuracy and saves nothing, and what the noise hides.
+    // Settings that cost accuracy and save nothing, and those that the noise hides.
     std::string wasted;
     int hidden = 0;
     double frames = 0;

@@ -1,4 +1,4 @@
-// What the sources share whose functions JavaScript calls: module.cpp, which the page and the npm package both have, and what each adds.
+// Shared by the sources whose functions JavaScript calls: module.cpp, which the page and the npm package both have, and what each adds.
 // A scene is a handle. Texts are UTF-8 and end with a zero byte; what is returned lives until the next call for that scene.
 #pragma once
 

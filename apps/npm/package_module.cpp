@@ -1,4 +1,4 @@
-// What the npm package's module has beside module.cpp: the program's report and description of a scene, and its flags.
+// The part of the npm package's module beside module.cpp: the program's report and description of a scene, and its flags.
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/answers/scene_description.hpp"
 #include "apps/engine/basics/timeout.hpp"

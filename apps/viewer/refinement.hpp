@@ -1,4 +1,4 @@
-// What to draw next: quick pictures while something moves, then all samples. It knows times and nothing of windows.
+// Decides what to draw next: quick pictures while something moves, then all samples. It knows times and nothing of windows.
 #pragma once
 
 #include <optional>

@@ -22,7 +22,7 @@ struct ViewerOptions {
     std::string screenshot;  ///< at the end; empty: none
 };
 
-/// What happened until the window was closed.
+/// Summary of what happened until the window was closed.
 struct ViewerSummary {
     int width = 0, height = 0;                ///< of the picture at the end
     int window_width = 0, window_height = 0;  ///< with the panel

@@ -86,7 +86,7 @@ Result<std::vector<std::byte>> ModelFolder::read(std::string_view relative, std:
     return file;
 }
 
-/// Of names that are alike but for the case of their letters and their folders, the only one.
+/// Reads the only file whose name is alike but for the case of its letters and its folders.
 Result<std::vector<std::byte>> ModelFolder::read_like(std::string_view name, std::size_t max_bytes, std::string& found) {
     found = name;
     auto exact = read(name, max_bytes);

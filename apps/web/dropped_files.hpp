@@ -1,5 +1,5 @@
-// Files in memory: what a visitor dropped on the page, or what a host handed over. dropped_files.cpp answers apps/io/file_access.hpp from
-// them.
+// Files in memory: those that a visitor dropped on the page, or that a host handed over. dropped_files.cpp answers
+// apps/io/files/file_access.hpp from them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What the command line asks its system for and a page does not have.
+// Stand-ins for what the command line asks its system for and a page does not have.
 #include "apps/engine/basics/file_names.hpp"
 #include "apps/engine/job/scene_source.hpp"
 #include "apps/engine/request/camera_file.hpp"

@@ -1,4 +1,4 @@
-// What the page's module has beside apps/npm/module.cpp: its own short report, comparisons with the reference, and lobes.
+// The part of the page's module beside apps/npm/module.cpp: its own short report, comparisons with the reference, and lobes.
 #include "apps/npm/module.hpp"
 #include "apps/web/session_report.hpp"
 #include "halflit/lobe.hpp"

@@ -7,7 +7,7 @@
 
 namespace halflit::peer {
 
-/// What a fragment gives: its colour, planes that say what the pixel shows, or both. Planes are an unsigned number of the triangle, the
+/// Output of a fragment: its colour, planes that say what the pixel shows, or both. Planes are an unsigned number of the triangle, the
 /// distance along the view axis, and the weights of the triangle's second and third corner, in colour attachments 1 to 3. They need the
 /// vertices of a LabelledMesh.
 enum class PeerOutputs { colour, planes, both };
@@ -18,7 +18,7 @@ struct ShaderSources {
 };
 
 /// Shaders of a scene's one material. What does not change is written as constants: the material, the environment's coefficients and suns.
-/// Lamps and the eye are uniforms. The target must encode sRGB. products: the highlights' power is written as products, where its exponent
+/// Lights and the eye are uniforms. The target must encode sRGB. products: the highlights' power is written as products, where its exponent
 /// is whole.
 [[nodiscard]] ShaderSources shader_sources(const Scene& scene, PeerOutputs outputs, bool products);
 

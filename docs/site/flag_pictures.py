@@ -76,7 +76,7 @@ def flags_of(program):
 
 
 def faults(program):
-    """What the table lacks, and what it has too much."""
+    """Rows that the table lacks, and rows too many."""
     pairs = read_table()
     groups = {pair.group for pair in pairs}
     have, want = [pair.flag for pair in pairs], [flag for group, flag, _ in flags_of(program) if group in groups]

@@ -55,7 +55,7 @@ HALFLIT_INLINE TriangleCorners load_corners(const TriangleTable& triangles, cons
     return corners_at(corner);
 }
 
-/// What the samples of kWidth triangles have in common: edge functions a x + b y, and the slopes of depth.
+/// Values that all samples of a triangle share, for kWidth triangles: edge functions a x + b y, and the slopes of depth.
 struct SetupLanes {
     I a[3], b[3], not_top_left[3];
     I anchor_x, anchor_y;

@@ -19,7 +19,7 @@ struct EdgeLine {
     bool hidden;
 };
 
-/// What each pixel's middle shows, as Target has it, in a part of a picture.
+/// The triangle that each pixel's middle shows, as Target has it, in a part of a picture.
 struct PixelTriangles {
     int width, height;  ///< of the whole picture
     Region region;      ///< the part

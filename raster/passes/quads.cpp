@@ -56,7 +56,7 @@ constexpr auto kQuadIndices = [] {
 const std::uint32_t* quad_indices() { return kQuadIndices.data(); }
 
 void transform_quads(const RasterKernels& kernels, const TransformArgs& args, const Draw& draw, const View& view) {
-    // Of the middle's position, only what lies behind a plane of depth is certain of the whole quad.
+    // Outcodes of the middle that hold for the whole quad: those of the planes of depth, and those of vertices that cannot be drawn.
     constexpr std::uint8_t kKept = kBeyondFar | kNear | kGuard | kNotFinite;
     ScreenVertex screen[kVertexGroup];
     std::uint8_t codes[kVertexGroup];

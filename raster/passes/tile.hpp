@@ -59,8 +59,8 @@ struct LayerScratch {
     std::vector<Fragment> fragments;
     std::vector<float> z;      ///< of each sample of each fragment; a number only where `samples` has its bit
     std::vector<Vec4f> light;  ///< of fragments: light times alpha, and alpha
-    /// Of fragments: share of red, green and blue light from behind that passes, and alpha as it is seen in the picture. Empty unless a
-    /// drawn material transmits; otherwise these are 1 - alpha, and alpha.
+    /// For each fragment: share of red, green and blue light from behind that passes, and alpha as it is seen in the picture. Empty unless
+    /// a drawn material transmits; otherwise these are 1 - alpha, and alpha.
     std::vector<Vec4f> keep;
     std::vector<std::uint8_t> is_shown;                ///< of fragments: 1 if its colour is one of the display. Only in frames with such
     std::vector<std::uint32_t> by_pixel;               ///< fragments, those of a pixel together

@@ -117,7 +117,7 @@ void PictureTile::add_toned_sample(int s, int at, int count, const Vec4f* backs,
     alignas(64) float light[3][kTonedLanes] = {}, front[kTonedLanes];
     const float* const color = sample_color(s) + 4 * at;
     const float* const backing = scratch_.backing.data() + s * kTilePixels + at;
-    // What shows of the background colour in each channel.
+    // Share of the background colour that shows in each channel.
     const float* share_of[3] = {backing, backing, backing};
     if (transmits_)
         for (int i = 0; i < 3; ++i) share_of[i] = scratch_.tint.data() + (3 * s + i) * kTilePixels + at;
@@ -138,7 +138,7 @@ void PictureTile::add_toned_sample(int s, int at, int count, const Vec4f* backs,
     } else {
         for (int x = 0; x < count; ++x) {
             const float of_back[4] = {backs[x].x, backs[x].y, backs[x].z, backs[x].w};
-            // What shows of the background colour is taken off. What is left is light times alpha, and alpha.
+            // The background colour is taken off. The rest is light times alpha, and alpha.
             float left[4];
             for (int i = 0; i < 4; ++i) {
                 const float share = i < 3 ? share_of[i][x] : backing[x];
@@ -148,7 +148,7 @@ void PictureTile::add_toned_sample(int s, int at, int count, const Vec4f* backs,
             if (transmits_) left[3] = 1.0f - backing[x];
             if (shown != nullptr && shows(shown + 4 * x)) {
                 for (int i = 0; i < 4; ++i) left[i] -= shown[4 * x + i];
-                // What rounding leaves of nothing would count as a very bright surface.
+                // A rest that rounding leaves would count as a very bright surface.
                 if (left[3] < 1e-4f) left[0] = left[1] = left[2] = left[3] = 0.0f;
             }
             front[x] = left[3] > 0.0f ? left[3] : 0.0f;

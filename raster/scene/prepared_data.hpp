@@ -1,4 +1,4 @@
-// What halflit::PreparedScene holds: the meshes' clusters, the instances' boxes, and sums over the scene.
+// Contents of halflit::PreparedScene: the meshes' clusters, the instances' boxes, and sums over the scene.
 #pragma once
 
 #include "halflit/error.hpp"

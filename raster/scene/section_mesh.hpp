@@ -27,7 +27,7 @@ struct CutSegment {
     CutPoint from, to;
 };
 
-/// What a plane leaves of a mesh.
+/// The part of a mesh that a plane leaves.
 enum class Left : std::uint8_t { all, some, nothing };
 
 /// A placed mesh and its vertices' distances to a plane. Requires: indices in range. Primitives with a vertex that is not finite are

@@ -1,4 +1,4 @@
-// What can cast a shadow on something else, as a few boxes in world space: shadow maps are fitted to it.
+// A few boxes in world space around all that can cast a shadow on something else: shadow maps are fitted to them.
 //
 // A floor hides nothing if nothing lies below it, so its map need not show all of it. Floors and walls are flat triangles across a world
 // axis, at the ends of the box of all flat triangles. Such a face is left out for a light on its inner side. That is enough: a shadow falls

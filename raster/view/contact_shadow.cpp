@@ -205,7 +205,7 @@ ContactShadow::ContactShadow(std::shared_ptr<const ContactMap> map, const Camera
         return Vec3d{columns_of_inverse[0].*of, columns_of_inverse[1].*of, columns_of_inverse[2].*of};
     };
     const Vec3d of_weight = inverse_row(&Vec3d::z);
-    // Of (x, y, 1) in pixels.
+    // The row as a factor on (x, y, 1) in pixels.
     const auto in_pixels = [&](Vec3d row_of_picture) {
         return Vec3d{row_of_picture.x * (2.0 / width_), row_of_picture.y * (-2.0 / height_),
                      (row_of_picture.z - row_of_picture.x) + row_of_picture.y};

@@ -16,7 +16,7 @@
 
 namespace halflit::raster {
 
-/// Of the ground below a scene, seen from above: 64 rows along x, one for each z.
+/// Map of the ground below a scene, seen from above: 64 rows along x, one for each z.
 struct ContactMap {
     std::vector<float> hidden;  ///< share of the sky at each cell's middle, 0 to 1, and 0 at the map's border; empty: nothing stands
     int low[2] = {64, 64}, high[2] = {-1, -1};  ///< cells along x and z from the first to the last whose share may be above 0

@@ -104,7 +104,7 @@ std::optional<Window> window(const FittedView& view, int k, int size, const Exte
 
 double texel_of(const Window& w, int size) { return 2.0 * w.half / (size - 2 * shading::kShadowBorder); }
 
-/// What is seen, in the plane of a view (perspective: as tangents). min_depth: perspective: nothing nearer can lie in a shadow.
+/// Extent of the seen volume in the plane of a view (perspective: as tangents). min_depth: perspective: nothing nearer can lie in a shadow.
 Extent in_plane(const FittedView& view, bool orthographic, const SeenVolume& seen, double min_depth, Range& depth) {
     Extent out;
     const HalfSpace in_front{view.axes.back * -1.0, dot(view.axes.back, view.eye) - min_depth};

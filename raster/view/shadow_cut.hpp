@@ -17,7 +17,7 @@ namespace halflit::raster {
 struct SeenVolume {
     std::vector<Polygon> sides;
     double pixel = 0;  ///< height or width of a pixel, whichever is less, world units; with perspective at depth 1
-    // Of pictures with perspective:
+    // Used by pictures with perspective:
     bool perspective = false;
     HalfSpace axis;             ///< its value at a point is the depth, the distance along the camera's axis
     Range depth;                ///< depths in view; the near plane's is the least
@@ -28,7 +28,7 @@ struct SeenVolume {
 /// The part of it up to a depth.
 [[nodiscard]] SeenVolume up_to(const SeenVolume& seen, double depth);
 
-/// What the whole window of `picture` sees, whatever its region. Nothing if the camera's matrix has no inverse.
+/// The volume that the whole window of `picture` sees, whatever its region. Nothing if the camera's matrix has no inverse.
 [[nodiscard]] std::optional<SeenVolume> seen_volume(const View& picture, const DepthMap& depth, const Bounds& scene);
 
 /// True if a camera with a square field of view may see some of it; see can_see() of boxes. half: tangent of half the field of view.

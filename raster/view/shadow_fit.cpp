@@ -7,7 +7,7 @@
 namespace halflit::raster {
 namespace {
 
-/// What a light sees of the boxes, as tangents.
+/// Extent of the boxes as a light sees them, as tangents.
 struct Tangents : Extent {
     bool in_front = true;
 };

@@ -14,7 +14,7 @@ namespace {
 using Word = BitGrid::Word;
 
 constexpr int kStride = 2;  ///< voxels from one point of the lattice to the next
-/// What fills voxels lies so far from the border of the lattice, in spacings of its points; the border may be half a voxel further in.
+/// Least distance of filled voxels from the border of the lattice, in spacings of its points; the border may be half a voxel further in.
 constexpr float kLeastMargin = (kFreeVoxels - 1.5f) / kStride;
 static_assert(shading::kGridFade < kLeastMargin, "the scene's own shares would fade");
 

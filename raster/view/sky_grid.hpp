@@ -1,4 +1,4 @@
-// What hides the surroundings, in a coarse grid over the scene (shading/plan/sky_grid_plan.hpp).
+// Makes the coarse grid that tells where a scene hides its surroundings (shading/plan/sky_grid_plan.hpp).
 //
 // For each direction, layer after layer of the scene's voxels from its far end, a voxel is hidden if the next one towards it is filled or
 // hidden: rows of 64 voxels are words, so a direction takes some thousand operations.

@@ -27,7 +27,7 @@ struct Mean {
     void add(double luminance, double by) { sum += luminance * by, weight += by; }
 };
 
-/// What a material sends to the eye under white light, where vertices and instances are white.
+/// Light that a material sends to the eye under white light, where vertices and instances are white.
 struct SurfaceLight {
     Vec3d back;        ///< of that light
     Vec3d own{};       ///< emission

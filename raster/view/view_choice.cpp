@@ -1,6 +1,6 @@
 // The view of a scene without a camera, and whether a view shows anything.
 //
-// Of a few views, the one that shows most is taken: each is drawn into a small picture of depths, by parallel rays, and judged by the share
+// The one of a few views that shows most is taken: each is drawn into a small picture of depths, by parallel rays, and judged by the share
 // of the scene's surface that it shows, by the share of the picture that this fills, and by the share of the instances. Of many triangles
 // the large ones are drawn and some of the others, so the cost does not grow with the scene. The picture's size plays no part.
 //
@@ -143,7 +143,7 @@ std::vector<SurfaceSample> surface_samples(const Scene& scene, const raster::Fra
     return samples;
 }
 
-/// What a view shows, of 1 each.
+/// Shares that a view shows, each from 0 to 1.
 struct ViewWorth {
     double surface;  ///< of the scene's surface, as it is turned to the viewer
     double filled;   ///< of the square picture

@@ -21,7 +21,7 @@ struct SheenSurface {
 };
 [[nodiscard]] SheenSurface sheen_surface(const MaterialPlan& material, double normal_error, const SceneFacts& facts);
 
-/// What all layers of a material add.
+/// Costs that all layers of a material add.
 struct LayerCosts {
     double codes = 0;      ///< roundings and textures
     double reflected = 0;  ///< largest light reflected, per light of colour 1

@@ -369,8 +369,8 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
         codes += costs.absolute(share * mirrored.error + (s.roughness.absolute + 5.0 * s.cosine_error()) * mirrored.most);
         codes += codes_of(costs, s.occlusion, s.albedo * diffuse.most + share * mirrored.most);
         if (!plan.sky.empty()) {
-            // Of mirrored light weights change no faster than twice the inverse width of the narrowest focus, by a factor of the lights in
-            // reach.
+            // The weights of mirrored light change no faster than twice the inverse width of the narrowest focus, by a factor of the lights
+            // in reach.
             codes += sky_share_codes(costs, plan, material, s.normal_error, s.albedo * diffuse.most);
             const double focused = 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error;
             if (plan.sky_grid.masks == nullptr) codes += costs.absolute(share * (sky_sum_error(plan) + focused) * mirrored.most);

@@ -1,4 +1,4 @@
-// What a surface reflects and what light reaches it, as bounds, and the error of float32 and of textures that follows from them.
+// Bounds on the light that reaches a surface and that it reflects, and the error of float32 and of textures that follows from them.
 #pragma once
 
 #include "shading/budget/error_budget.hpp"

@@ -52,7 +52,7 @@ inline namespace HALFLIT_ISA_NAMESPACE {
     }
 }
 
-/// What the lights of a fragment share.
+/// Values that all lights of a fragment share.
 struct StretchedView {
     V3 normal, to_eye, along, beside;
     F alpha_along, alpha_across, n_dot_v, v;

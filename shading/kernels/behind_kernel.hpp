@@ -1,4 +1,5 @@
-// What is seen through glass that blurs or bends light: surfaces in the picture behind it, and the surroundings where there are none.
+// The light that is seen through glass that blurs or bends light: surfaces in the picture behind it, and the surroundings where there are
+// none.
 #pragma once
 
 #include "shading/kernels/environment_kernel.hpp"
@@ -68,7 +69,7 @@ struct Behind {
     return out;
 }
 
-/// What glass shows: light from behind, and the share of what is behind the pixel itself that is seen too.
+/// The view through glass: light from behind, and the share of the light behind the pixel itself that is seen too.
 struct LookedThrough {
     V3 light;
     F clear;

@@ -20,7 +20,7 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// What a coat is at kWidth fragments.
+/// A coat at kWidth fragments.
 struct Coat {
     F share;      ///< of the surface that is coated
     F roughness;  ///< at least kMinRoughness

@@ -17,7 +17,7 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// What the lights of a fragment share.
+/// Values that all lights of a fragment share.
 struct GgxView {
     V3 normal, to_eye;
     F alpha_squared, rest;  ///< a^2, 1 - a^2

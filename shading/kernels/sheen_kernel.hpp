@@ -43,7 +43,7 @@ HALFLIT_INLINE SheenAt sheen_at(F roughness, F n_dot_v) {
     return out;
 }
 
-/// What the lights of a fragment share.
+/// Values that all lights of a fragment share.
 struct SheenView {
     V3 normal, to_eye;
     F n_dot_v;        ///< from 0

@@ -10,7 +10,7 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// Of the eight points those that count for some lane. To leave one out changes no sum: it would add 0.
+/// One of the eight points around a fragment that counts for some lane. To leave one out changes no sum: it would add 0.
 struct GridPoint {
     int count = 0;
     I masks[2][8];

@@ -1,4 +1,4 @@
-// What lies behind glass that blurs or bends light, as the kernels read it: the picture without such glass, and smaller copies of it. Other
+// The picture behind glass that blurs or bends light, as the kernels read it: without such glass, with smaller copies. Other
 // renderers call it the transmission buffer.
 #pragma once
 
@@ -23,7 +23,7 @@ struct BehindPlan {
     float x[4]{}, y[4]{}, w[4]{};
 
     BehindPlan() = default;
-    /// Of a picture of this size, with levels down to one texel, but no texels.
+    /// Makes the plan of a picture of this size: levels down to one texel, but no texels.
     BehindPlan(int width_px, int height_px) : width(static_cast<float>(width_px)), height(static_cast<float>(height_px)) {
         std::int32_t next = 0;
         for (int w_k = width_px, h_k = height_px; levels < kBehindLevels; w_k = (w_k + 1) / 2, h_k = (h_k + 1) / 2) {

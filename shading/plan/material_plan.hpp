@@ -26,7 +26,7 @@ struct SpecularCurve {
 inline constexpr std::uint32_t kStagesWithoutCells =
     kStageNormalMap | kStageTransmission | kStageClearcoat | kStageSheen | kStageAnisotropy | kStageDiffuseTransmission;
 
-/// What the light of a cell may be off by (light_cell.hpp), as light through the lobe, before its scale.
+/// Largest error of the light of a cell (light_cell.hpp), as light through the lobe, before its scale.
 struct CellTolerance {
     float relative = 0, absolute = 0;  ///< share of the light, and light; 0: this material's light is never fitted
     /// Error that a highlight left out counts for, as a share of it, or 0 where the albedo may be black; then highlights left out may be

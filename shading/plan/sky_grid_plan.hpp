@@ -1,14 +1,14 @@
-// What hides the surroundings, in a coarse grid over the scene: for each point of a lattice, the directions in which something lies. It is
-// made in a millisecond, whatever the scene, and read in a few loads a fragment (raster/view/sky_grid.hpp).
+// A coarse grid over the scene that tells where the surroundings are hidden: for each point of a lattice, the directions in which something
+// lies. It is made in a millisecond, whatever the scene, and read in a few loads a fragment (raster/view/sky_grid.hpp).
 //
 // The share of the light of the surroundings that a surface with the normal n loses is
 //
 //     min(1, (sum of L_d max(0, n.d - a) h_d over the directions) / T(n)),  T(n) = the same sum without h_d
 //
-// where L_d is the light from the direction d and h_d the share that it is hidden, of three ways about d: the mean over the eight points of
-// the lattice around the surface, by linear weights. No way about a direction that counts, n.d > a, goes below the surface. T(n) is taken
-// from the first three bands of max(0, n.d - a) [RH01], and is held above half of what a sky that is the same all around gives. So the
-// share changes no faster than kGridSlope |dn|.
+// where L_d is the light from the direction d, and h_d the hidden share of three ways about d: the mean over the eight points of the
+// lattice around the surface, by linear weights. Only directions with n.d > a count. The ways about them lie within the angle whose tangent
+// is a, so none of them goes below the surface. T(n) is taken from the first three bands of max(0, n.d - a) [RH01]. Its lower bound is half
+// of what a uniform sky gives, so the share changes no faster than kGridSlope |dn|.
 #pragma once
 
 #include <cstdint>

@@ -153,7 +153,7 @@ private:
             direction_of(face, std::tan(kPi / 4 * (2.0 * (i - 1) / kCells - 1.0)), std::tan(kPi / 4 * (2.0 * (j - 1) / kCells - 1.0)));
         Vec3d total{};
         for (const Patch& patch : patches_) {
-            // Of even light, directions within the patch are spread evenly along the normal, as nearly as their variance tells.
+            // If the light is even, directions within the patch are spread evenly along the normal, as nearly as their variance tells.
             const double along = dot(patch.along, normal), across = dot(patch.across, normal);
             total = total + patch.light * table_->mean(dot(patch.direction, normal), std::sqrt(along * along + across * across));
         }

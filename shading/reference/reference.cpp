@@ -828,7 +828,7 @@ Rgba behind_level(const BehindPlan& behind, int level, double x_px, double y_px)
     return {sum[0], sum[1], sum[2], sum[3]};
 }
 
-/// What glass shows of the light behind it: its light, and the share that is kept as it is.
+/// The light behind glass: its colour, and the share that is kept as it is.
 struct Through {
     Vec3d light{0, 0, 0};
     double clear = 1;

@@ -48,7 +48,7 @@ struct Surroundings {
     std::span<const Hidden> hidden;
     /// Environment light at a normal. Where it is given, it replaces the two-colour ambient light.
     const Irradiance* diffuse = nullptr;
-    /// What the environment's reflections are taken from, and by how many lobes; where `diffuse` is given and highlights are on.
+    /// Source of the environment's reflections, and their number of lobes; used where `diffuse` is given and highlights are on.
     const ReflectionPlan* reflections = nullptr;
     int reflection_lobes = 1;
     /// Sky shadows: the lights that stand for the surroundings, and their hidden shares; empty: there are none.
@@ -57,7 +57,7 @@ struct Surroundings {
     std::span<const Hidden> hidden_far{}, hidden_sky_far{};  ///< the same for the far side; of materials with diffuse transmission
     double sky_focus = 0;                                    ///< ShadingPlan::sky_focus
     const SkyGridPlan* sky_grid = nullptr;                   ///< hides it, in place of maps
-    /// What is seen through glass that blurs or bends light; null: the light behind is kept as it is.
+    /// The picture behind glass that blurs or bends light; null: the light behind is kept as it is.
     const BehindPlan* behind = nullptr;
 };
 

@@ -9,13 +9,13 @@
 
 namespace halflit::adversary {
 
-/// What is promised.
+/// Kinds of promises.
 enum class Promise : std::uint8_t {
     bound,  ///< the error of a budget that is proven is within the bound that its report names
     share   ///< as many pixels are within the codes of a budget that is measured as Renderer::measure claims
 };
 
-/// What a picture was compared with.
+/// The reference that a picture was compared with.
 enum class Truth : std::uint8_t {
     reference,  ///< Accuracy::reference
     whole_sky   ///< the same without the environment, plus the environment's own image, suns included, summed pixel by pixel

@@ -30,7 +30,8 @@ private:
                (options_.stop_at_first && !result_.broken.empty());
     }
 
-    /// What a climb raises. Each part of the bound has climbs of its own, or all would end where bounds are tightest; the last is for all.
+    /// The number that a climb raises. Each part of the bound has climbs of its own, or all would end where bounds are tightest; the last
+    /// is for all.
     [[nodiscard]] double score(const Verdict& v) const {
         return v.broken() || wanted_ == kTerms || static_cast<int>(v.term()) == wanted_ ? v.ratio : 0.1 * v.ratio;
     }

@@ -1,4 +1,4 @@
-// What the test of the C interface asks of C++: the same pictures by the C++ headers, and two threads.
+// Functions of C++ for the test of the C interface: the same pictures by the C++ headers, and two threads.
 #ifndef HALFLIT_TESTS_C_PEER_H
 #define HALFLIT_TESTS_C_PEER_H
 

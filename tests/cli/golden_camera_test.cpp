@@ -39,7 +39,7 @@ const std::vector<std::string> kFlags{"--size", "160x120"};
 
 TEST_CASE("golden: a spike changes its own pixels, because the camera was recorded", "[cli][golden]") {
     // The spike's share of the picture is about 2 %. Framed anew, the whole sphere would be smaller: 40 % of the pixels.
-    // What hides the sky from a surface, or from the ground, is all of the scene: left out.
+    // The whole scene hides the sky from a surface or from the ground, so such shadows are left out.
     const std::vector<std::string> views[] = {{}, {"--view", "front", "--ortho"}, {"--view", "top"}, {"--view", "iso", "--fit", "4"}};
     for (const std::vector<std::string>& view : views) {
         const TemporaryFolder folder;

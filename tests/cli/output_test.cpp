@@ -210,7 +210,7 @@ TEST_CASE("output: a file that the scene was read from is not overwritten", "[cl
         CHECK(folder.names() == std::vector<std::string>{"crate.gltf", "crate.png"});
     }
     CHECK(run({"crate.gltf", "-o", "new.png", "-q"}, {.folder = folder.path()}).code == 0);
-    // Of several scenes, one may refer to a file that another's picture would replace, and that nothing draws.
+    // One of several scenes may refer to a file that another's picture would replace, and that nothing draws.
     std::ofstream(folder.file("plain.gltf"))
         << R"({"asset":{"version":"2.0"},"images":[{"uri":"crate.png"}],"nodes":[{}],"scenes":[{"nodes":[0]}]})";
     std::filesystem::rename(folder.file("crate.gltf"), folder.file("box.gltf"));

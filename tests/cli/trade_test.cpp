@@ -126,7 +126,7 @@ TEST_CASE("trade: the fewer bands of an environment, the larger the error", "[cl
     CHECK(row_named(rows, "exact")["order"] == "auto");
 }
 
-TEST_CASE("trade: times are relative to exact, errors to the reference, and a matte sphere is within a code", "[cli][trade]") {
+TEST_CASE("trade: times are relative to exact, errors to the reference, and a diffuse sphere is within a code", "[cli][trade]") {
     const TemporaryFolder folder;
     const Json rows = trade(folder, {"sphere:2000", "--specular", "none", "--quick"});
     const Json& reference = row_named(rows, "reference");

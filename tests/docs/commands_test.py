@@ -33,7 +33,7 @@ def not_run():
 
 
 def damaged_models(folder, program):
-    """What docs/troubleshooting.md names."""
+    """Makes the files that docs/troubleshooting.md names."""
     for name, size in (("tall", "60x90"), ("wide", "90x60")):
         subprocess.run([program, "demo", folder / f"{name}.png", "--size", size, "--quiet"], check=True)
     (folder / "wrong.glb").write_text("<html>404</html>")
@@ -52,7 +52,7 @@ def damaged_models(folder, program):
 
 
 def golden_folders(folder):
-    """What docs/golden.md and docs/recipes.md name."""
+    """Makes the files that docs/golden.md and docs/recipes.md name."""
     for name in ("tests/pictures", "pictures"):
         at = folder / name
         (at / "models").mkdir(parents=True)

@@ -152,7 +152,7 @@ def codes_allowed(kind, error):
 
 
 def wrong(outcome, right, kind, error, on):
-    """What is wrong with the outcome: a list of sentences, empty if nothing is."""
+    """The faults of the outcome: a list of sentences, empty without a fault."""
     found = []
     after, code = outcome.after, outcome.code
     allowed = codes_allowed(kind, error) if outcome.fired else [0]

@@ -142,7 +142,7 @@ void mutate_number(Json& number, std::size_t count, Random& random) {
     }
 }
 
-/// What a data URI holds is mutated; other strings are replaced.
+/// Mutates the contents of a data URI; replaces other strings.
 void mutate_string(Json& text, std::size_t max_bytes, Random& random) {
     auto& value = text.get_ref<std::string&>();
     const std::size_t comma = value.find(";base64,");

@@ -155,7 +155,7 @@ MESHOPT_VERTICES = bytes.fromhex(
     '000000')
 MESHOPT_TRIANGLES = bytes.fromhex('e0f010007687566778a9866589689801690000')
 MESHOPT_INDICES = bytes.fromhex('d000040400020800000000')
-# Of Basis Universal's encoder: a book of 20 colours, one of 18 patterns, and the slices of colour and alpha of 20 x 12 pixels.
+# Output of Basis Universal's encoder: a book of 20 colours, one of 18 patterns, and the slices of colour and alpha of 20 x 12 pixels.
 ETC1S_BOOKS = bytes.fromhex(
     '140012004e00000049000000380000000000000000000000000000000d0000000d0000000c00000020c01c00010088000078e5bf64b318f900de000c003004db317e'
     '04a18d0e204ec000000020e8d5080c0e802900000000802088865998d76f63861537b9f86f32683df9efb3a1aa004052670100005455050040454545055055558554'

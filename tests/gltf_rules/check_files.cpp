@@ -38,7 +38,7 @@ struct Line {
     std::vector<std::string> allowed;
 };
 
-/// What is wrong, or nothing.
+/// The fault, or nothing.
 std::string fault_of(const Line& line) {
     halflit::LoadOptions as_stored;  // the rules' extreme numbers are far away, which is another warning
     as_stored.recentre = false;

@@ -74,7 +74,7 @@ TEST_CASE("environment: ten lobes under the shared pictures, 1,000 normals: no e
 TEST_CASE("environment: suns of the shared pictures keep all energy and lower the bound", "[io][environment]") {
     if (!have_environments()) HALFLIT_SKIP("no environments among the assets");
     const LobeSpectrum lambert = lobe_spectrum({0.0, 1.0, 1.0});
-    const std::size_t counts[] = {0, 1, 1};  // dawn without a sun; studio lamps; a sun above the sea
+    const std::size_t counts[] = {0, 1, 1};  // dawn without a sun; studio lights; a sun above the sea
     for (std::size_t i = 0; i < 3; ++i) {
         INFO(kNames[i]);
         const EnvironmentImage environment = load(kNames[i]);

@@ -153,7 +153,7 @@ inline Bytes textured(const Bytes& image, const std::string& type, const std::st
     return file.file();
 }
 
-/// What a damaged file may be refused with: a fault or a limit, in one line.
+/// Checks how a damaged file is refused: with a fault or a limit, in one line.
 inline void check_refusal(const Error& error) {
     if (error.code != ErrorCode::bad_input && error.code != ErrorCode::limit)
         FAIL("code " << static_cast<int>(error.code) << ": " << error.message);

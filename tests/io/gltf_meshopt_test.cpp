@@ -118,7 +118,7 @@ constexpr const char* kFloat3 = R"("componentType":5126,"type":"VEC3")";
 constexpr const char* kU16 = R"("componentType":5123,"type":"SCALAR")";
 constexpr const char* kU32 = R"("componentType":5125,"type":"SCALAR")";
 
-/// What the encoder of triangles keeps: it turns each so that another corner may be the first.
+/// Triangles as the encoder keeps them: it turns each so that another corner may be the first.
 std::vector<std::uint32_t> turned(std::vector<std::uint32_t> indices) {
     for (std::size_t i = 0; i < indices.size(); i += 3) {
         const auto first = indices.begin() + static_cast<std::ptrdiff_t>(i);

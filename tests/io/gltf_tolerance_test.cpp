@@ -161,7 +161,7 @@ TEST_CASE("tolerance: a primitive that cannot be read is left out, and a file of
         CHECK(alone.error().code == ErrorCode::bad_input);
         CHECK(alone.error().message.find("meshes[0].primitives[0]") != std::string::npos);
     }
-    // Of a file that was cut off, what is there is drawn.
+    // A file that was cut off is drawn as far as it goes.
     CHECK_FALSE(load(truncated(12), {}));  // one triangle alone, of which a vertex is gone
     TriangleFile file;
     file.accessors = R"({"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"})";

@@ -97,7 +97,7 @@ TEST_CASE("slicers: runs of triangles are volumes, and supports of 3MF itself ar
 
 TEST_CASE("slicers: paint divides facets, and their area stays", "[io][3mf]") {
     if (!has_three_mf()) HALFLIT_SKIP("built without expat");
-    // Of the last digits: 4 and 8 are filaments 1 and 2, 0C is the third, 3 divides all sides, 1 and 2 one and two of them.
+    // The last digits: 4 and 8 are filaments 1 and 2, 0C is the third, 3 divides all sides, 1 and 2 one and two of them.
     const std::pair<const char*, std::map<std::array<int, 3>, std::size_t>> cases[] = {
         {"4", {{kRed, 1}}},
         {"8", {{kGreen, 1}}},

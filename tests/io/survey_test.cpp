@@ -17,7 +17,7 @@ namespace {
 
 constexpr Vec3d kFar{4e6, 5e6, 1e5};
 
-/// What README's example draws, in a small picture.
+/// Draws README's example in a small picture.
 std::vector<std::uint8_t> draw(const LoadedScene& loaded) {
     PictureRequest request;
     request.size = {96, 72};

@@ -25,7 +25,7 @@ Vec3d point_of(const RayTriangle& triangle, Random& random) {
     return triangle.corners[0] * (1 - a - b) + triangle.corners[1] * a + triangle.corners[2] * b;
 }
 
-/// What the checks of many models found.
+/// Counts of the checks of many models.
 struct Tally {
     std::size_t models = 0, triangles = 0, seen = 0, less = 0, hidden = 0, unknown = 0;
     std::size_t wrong_seen = 0, wrong_hidden = 0;

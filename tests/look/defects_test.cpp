@@ -1,4 +1,4 @@
-// What the certificate says of parts that are wrong somewhere.
+// Tests of the certificate on parts that are wrong somewhere.
 #include "sh/vec3d.hpp"
 #include "tests/look/certified.hpp"
 #include "tests/support/bracket.hpp"

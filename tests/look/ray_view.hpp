@@ -1,4 +1,4 @@
-// What a camera of parallel rays sees, by rays against all triangles in double. Independent of the renderer: it shares no matrix with it.
+// The view of a camera of parallel rays, by rays against all triangles in double. Independent of the renderer: it shares no matrix with it.
 #pragma once
 
 #include "halflit/scene.hpp"

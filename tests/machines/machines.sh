@@ -25,7 +25,7 @@ debian() {
     mkdir -p "$root/build/chroots"
     "${as_root[@]}" debootstrap --variant=minbase "$suite" "$folder" "$mirror" "${script[@]}" >"$root/build/chroots/$suite.log" 2>&1 ||
         fail "debootstrap failed: see build/chroots/$suite.log"
-    # What this machine's apt needs to reach its mirror; not what it does after installing.
+    # Copies the settings by which this machine's apt reaches its mirror; not what it does after installing.
     { grep -lZE '^ *Acquire' /etc/apt/apt.conf.d/* 2>/dev/null || true; } | "${as_root[@]}" xargs -0 -r cp -t "$folder/etc/apt/apt.conf.d/"
     "${as_root[@]}" touch "$folder/.whole"
 }

@@ -28,7 +28,7 @@ function application(name, script, sources = "") {
   return folder;
 }
 
-// What a page says that it has drawn, or what went wrong.
+// Returns what a page says that it has drawn, or what went wrong.
 async function drawn_at(address) {
   const page = await Page.open(address);
   try {

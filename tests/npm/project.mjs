@@ -1,4 +1,4 @@
-// What the tests of the npm package share. They are called as node TEST.mjs PROGRAM WEB_BUILD SOURCE_FOLDER WORK_FOLDER.
+// Shared by the tests of the npm package. They are called as node TEST.mjs PROGRAM WEB_BUILD SOURCE_FOLDER WORK_FOLDER.
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";

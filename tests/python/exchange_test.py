@@ -1,4 +1,4 @@
-"""What a caller may hand over and take: tensors, file objects, colours by name."""
+"""Tests of values that a caller may hand over and take: tensors, file objects, colours by name."""
 import io
 import os
 import tempfile

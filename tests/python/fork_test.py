@@ -14,7 +14,7 @@ def hash_of(size):
 
 
 def in_child(function, seconds=60):
-    """What the function returns in a forked process: a text. None: it did not end."""
+    """The text that the function returns in a forked process. None: it did not end."""
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:

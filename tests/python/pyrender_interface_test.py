@@ -288,7 +288,7 @@ class Flags(unittest.TestCase):
 
 
 class Brightness(unittest.TestCase):
-    """The light of pyrender's shading where it has a closed form: a rough dielectric that faces lamp and camera."""
+    """The light of pyrender's shading where it has a closed form: a rough dielectric that faces light and camera."""
 
     def check(self, scene, light, tolerance=1.5):
         color, _ = draw(scene, size=33)
@@ -358,7 +358,7 @@ class Cameras(unittest.TestCase):
 
 
 class Uploads(unittest.TestCase):
-    """What a picture asks the library for."""
+    """Tests of what a picture asks the library for."""
 
     def setUp(self):
         self.robot = pyrender.Scene(ambient_light=[0.3, 0.3, 0.3])
@@ -476,7 +476,7 @@ class Uploads(unittest.TestCase):
 
 
 class Idioms(unittest.TestCase):
-    """What public scripts do besides the documented interface."""
+    """Tests of uses by public scripts besides the documented interface."""
 
     def cache_of(self, vertex, fragment):
         folder = tempfile.TemporaryDirectory()
@@ -537,7 +537,7 @@ class Idioms(unittest.TestCase):
             renderer.render(seen((square(), moved())))
 
     def test_ambient_light_alone_gives_the_shaders_colours(self):
-        # Of pyrender: (base colour * ambient light + emission) * vertex colour, to the power of 1 / 2.2.
+        # pyrender's formula: (base colour * ambient light + emission) * vertex colour, to the power of 1 / 2.2.
         colors = np.tile(np.array([200, 100, 50, 255], np.uint8), (4, 1))
         for metal, ambient, emission in ((0.0, 1.0, 0.0), (1.0, 0.5, 0.0), (0.2, 0.5, 0.1)):
             material = pyrender.MetallicRoughnessMaterial(

@@ -1,4 +1,4 @@
-"""What shows pictures to people: sheets of several, notebooks, bars."""
+"""Tests of what shows pictures to people: sheets of several, notebooks, bars."""
 import base64
 import contextlib
 import html.parser

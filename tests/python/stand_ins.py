@@ -72,7 +72,7 @@ class Trimesh:
 
 
 def rotation(angle, axis):
-    """Of trimesh.transformations: the matrix (4, 4) of a turn by radians about an axis, after Rodrigues."""
+    """As in trimesh.transformations: the matrix (4, 4) of a turn by radians about an axis, after Rodrigues."""
     x, y, z = np.asarray(axis, np.float64) / np.linalg.norm(axis)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     matrix = np.eye(4)
@@ -81,14 +81,14 @@ def rotation(angle, axis):
 
 
 def box(extents):
-    """Of trimesh.creation."""
+    """As in trimesh.creation."""
     corners = np.array([[i >> k & 1 for k in range(3)] for i in range(8)]) - 0.5
     faces = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7]
     return Trimesh(corners * extents, np.reshape(faces, (-1, 3)))
 
 
 def uv_sphere(radius=1.0, count=10):
-    """Of trimesh.creation: without faces that have no area."""
+    """As in trimesh.creation, without faces that have no area."""
     theta, phi = np.meshgrid(np.linspace(0, np.pi, count + 1)[1:-1], np.arange(2 * count) * np.pi / count, indexing="ij")
     ring = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1).reshape(-1, 3)
     faces, wide = [], 2 * count

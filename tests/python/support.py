@@ -1,4 +1,4 @@
-"""What the tests share: the program, and models made by code."""
+"""Shared by the tests: the program, and models made by code."""
 import json
 import os
 import struct
@@ -31,7 +31,7 @@ def program_hash(*arguments, data=None):
 
 
 def program_json(*arguments):
-    """What the program prints, as JSON."""
+    """The program's output as JSON."""
     return json.loads(subprocess.run([PROGRAM, *arguments], stdout=subprocess.PIPE, check=True).stdout)
 
 

@@ -246,7 +246,7 @@ TEST_CASE("setup: an environment is exposed to 0.5, or to 1 where it is calibrat
     dark.environment = grey(0, false);
     CHECK(set_up(dark, 200, 100).settings.exposure == 1.0f);
 
-    // What the rule says of pixels: a white surface under it is 0.5.
+    // The rule for pixels: a white surface under it is 0.5.
     Scene scene = box_scene();
     scene.materials.resize(1);
     scene.materials[0].metallic = 0;

@@ -82,7 +82,7 @@ struct Layer {
     Vec4f color;
 };
 
-/// What the reference knows of a sample: false where an edge or two depths are too near to tell.
+/// Layers of a sample by the reference; false where an edge or two depths are too near to tell.
 bool layers_at(const std::vector<ReferenceTriangle>& triangles, const Scene& scene, double x, double y, std::vector<Layer>& layers) {
     layers.clear();
     for (std::size_t pane = 0; 2 * pane < triangles.size(); ++pane) {

@@ -35,7 +35,7 @@ double lobe_at(const Lobe& lobe, double x) {
     return x > -w ? (n + 1) / (2 * (1 + w)) * std::pow((x + w) / (1 + w), n) : 0.0;
 }
 
-/// What a pane whose normal is turned by `tilt` shows in the middle of the picture.
+/// The picture's middle pixel, which shows a pane whose normal is turned by `tilt`.
 std::array<double, 4> seen(Scene scene, const Material& material, double tilt, const Settings& settings = {}) {
     add_pane(scene, material, 0, tilt);
     return middle(draw(scene, settings, 9, 9), 9, 9);

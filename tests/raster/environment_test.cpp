@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kPatches = 8, kSide = 32;  // 8 patches a side, each 4 pixels wide
 
-/// White matte patches, one for each normal. drawn() gives one pixel of each patch, in the order of the normals.
+/// White diffuse patches, one for each normal. drawn() gives one pixel of each patch, in the order of the normals.
 struct Patches {
     Scene scene;
     explicit Patches(const std::vector<Vec3d>& normals, const Lobe& lobe) {

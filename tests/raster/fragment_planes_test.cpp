@@ -298,7 +298,7 @@ TEST_CASE("fragment planes: motion is where the point is in the other picture", 
     }
     CHECK(wrong == 0);
     CHECK(compared > 5000);
-    // What is behind the other camera has no place in its picture.
+    // A point behind the other camera has no place in its picture.
     REQUIRE(make_motion({scene, camera}, {scene, camera_at({0, 1, -500}, {0, 1, -600})}, {kW, kH}, p.seen(), motion));
     CHECK(motion == still);
     Scene without = scene;

@@ -109,7 +109,7 @@ TEST_CASE("limits: a frame beyond its memory says so, and the same renderer draw
         CHECK(stopped.error().code == ErrorCode::limit);
         CHECK(stopped.error().message.find(std::to_string(limit)) != std::string::npos);
     }
-    // What is kept of a larger frame does not count against a small one.
+    // Memory kept from a larger frame does not count against a small one.
     const Scene small = spokes(10);
     REQUIRE(draw(renderer, spokes(100000), pixels, 200, {}));
     REQUIRE(draw(renderer, small, pixels, 200, {.memory_limit = 70'000'000}));

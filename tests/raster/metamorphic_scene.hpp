@@ -14,7 +14,7 @@
 
 namespace halflit::raster::test {
 
-/// What a picture is made of.
+/// Everything that a picture is made of.
 struct Shot {
     Scene scene;
     Camera camera;

@@ -207,7 +207,7 @@ TEST_CASE("quality: wrong budgets and settings are refused", "[raster][quality]"
     settings = shot.settings;
     settings.shading.accuracy = Accuracy::reference;
     CHECK(fails(kFastQuality, settings));
-    // What is known must be possible, and of the same budget.
+    // A known share must be possible, and of the same budget.
     for (const MeasuredShare& known : {MeasuredShare{},
                                        MeasuredShare{kFastQuality, 99.5, 512, 1, 1000, 1, 0},
                                        MeasuredShare{kDraftQuality, 99.5, 512, 1, 1, 1, 0},

@@ -1,4 +1,4 @@
-// White matte surface under one light of colour 1, so that a pixel is V f(N.L): V the visibility of the light, f the lobe.
+// White diffuse surface under one light of colour 1, so that a pixel is V f(N.L): V the visibility of the light, f the lobe.
 #pragma once
 
 #include "halflit/renderer.hpp"

@@ -1,6 +1,6 @@
 // Pictures of shadows on wrapped light: the step of hard shadows at the terminator, the effect of soft_split on it, and surfaces that
-// nothing hides. White matte surfaces under one directional light of colour 1, so that a pixel is V f(N.L): V the visibility of the light,
-// f the lobe.
+// nothing hides. White diffuse surfaces under one directional light of colour 1, so that a pixel is V f(N.L): V the visibility of the
+// light, f the lobe.
 #include "shading/environment.hpp"
 #include "shading/plan/shadow_map_plan.hpp"
 #include "tests/raster/shadow_setup.hpp"

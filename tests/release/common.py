@@ -1,4 +1,4 @@
-"""What the tests of a release share: where things are, and a runner that tells skipped from passed."""
+"""Shared by the tests of a release: where things are, and a runner that tells skipped from passed."""
 import os
 import shutil
 import subprocess

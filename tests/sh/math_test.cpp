@@ -200,7 +200,7 @@ TEST_CASE("math: look_at is rigid where there is nothing to look at", "[sh][math
     CHECK(off_rigid(look_at({0, 0, 0}, {kTiny, 0, 0})) < kRigid);
     CHECK(wide(look_at({0, 0, 0}, {kTiny, 0, 0}).c[2]) == Vec3d{-1, 0, 0});
     CHECK(off_rigid(look_at({kLargest, 0, 0}, {-kLargest, kLargest, 0})) < kRigid);
-    // Of an eye that is nowhere only the position is not a number.
+    // For an eye without a position, only the position is not a number.
     CHECK(off_rigid(look_at({kNan, 0, 0}, {0, 0, 0})) < kRigid);
     CHECK(off_rigid(look_at({kInf, kInf, 0}, {0, 0, 0})) < kRigid);
 }

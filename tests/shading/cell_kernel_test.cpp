@@ -165,7 +165,7 @@ Tally compare(std::uint64_t first_seed, int cases, bool highlights, float tolera
         const ShadeKernels& kernels = shade_kernels(Isa::scalar);
         kernels.shade(c.plan, c.plan.materials[0], {left.data(), static_cast<int>(left.size()), &cell}, drawn, c.count);
         kernels.shade(c.plan, c.plan.materials[0], all_lights(c.plan), truth, c.count);
-        // Of the light that the pixels compute: a highlight's logarithm is off by the error of its angle times sqrt(2 s).
+        // Error of the light that the pixels compute: a highlight's logarithm is off by the error of its angle times sqrt(2 s).
         const double own_rounding = 2e-6 + (highlights ? 1e-6 * std::sqrt(2.0 * cells.half_exponent) : 0.0);
         double brightest = 0;
         for (const LightPlan& light : c.plan.lights) brightest += light.brightness;

@@ -32,7 +32,7 @@ void roughen_vectors(FloatMaker& make, FragmentBlock& block) {
     }
 }
 
-/// What a lane keeps of the light behind has the same bits; of materials that transmit.
+/// True if a lane keeps the same bits of the light behind; for materials that transmit.
 bool same_keep(const MaterialPlan& material, const FragmentBlock& a, const FragmentBlock& b, int lane) {
     if ((material.stages & kStageTransmission) == 0) return true;
     return same_bits(a.keep[0][lane], b.keep[0][lane]) && same_bits(a.keep[1][lane], b.keep[1][lane]) &&

@@ -109,7 +109,7 @@ Vec3d split_sum(const Sky& sky, double roughness, Vec3d r, int rings) {
     return sum * (1 / weights);
 }
 
-/// What the kernels make of a material without any other light: colours of the lanes of a block.
+/// Colours that the kernels give a material without any other light, for the lanes of a block.
 class Drawn {
 public:
     Drawn(const Sky& sky, float roughness, float metallic, float dielectric, Vec3f base) {
@@ -219,7 +219,7 @@ TEST_CASE("reflections: each level of a map is the sky blurred by its lobe", "[s
                 const Vec3d d = sh::equirect_direction(x / (2.0 * n), y / static_cast<double>(n));
                 Vec3d sum{};
                 double weights = 0;
-                // Of a half vector the light comes from twice the angle: cos^4(t/2) beside GGX's own cosine and the change of solid angle.
+                // Light comes from twice the angle of a half vector: cos^4(t/2) beside GGX's own cosine and the change of solid angle.
                 const Vec3d side = unit(cross(std::fabs(d.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}, d)), other = cross(d, side);
                 const double a = level == 0 ? 0.07 * 0.07 : kReflectionSharpest * (1 << level);
                 constexpr int kRings = 64;

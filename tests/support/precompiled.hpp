@@ -1,4 +1,4 @@
-// What most tests include, compiled once for each program of tests.
+// Headers that most tests include, compiled once for each program of tests.
 #pragma once
 
 #include "tests/support/catch.hpp"

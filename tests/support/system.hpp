@@ -1,4 +1,4 @@
-// What tests ask of the system: folders, links, pipes and other processes. What it lacks, a test is skipped for (HALFLIT_SKIP).
+// Functions of the system for tests: folders, links, pipes and other processes. A test is skipped for what the system lacks (HALFLIT_SKIP).
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,7 @@ private:
 /// A signal that ends a process at once.
 inline constexpr int kKill = 9;
 
-/// What RunSettings may ask for; the other members are for every system.
+/// Optional requests of RunSettings; the other members are for every system.
 struct Abilities {
     bool signals;          ///< SIGINT and SIGTERM to another process
     bool terminals;        ///< a terminal without a screen
@@ -92,7 +92,7 @@ public:
     PipedProgram& operator=(const PipedProgram&) = delete;
 
     void write(const std::string& text) const;
-    /// What it has written since; waits for some of it up to two minutes, then fails the test.
+    /// The output since the last call; waits for some of it up to two minutes, then fails the test.
     [[nodiscard]] std::string read() const;
     /// Closes its input and waits for its end; the exit code.
     int end();

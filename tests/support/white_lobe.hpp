@@ -1,4 +1,4 @@
-// A white matte surface of one lobe under one directional light of colour 1: a fragment's light is the lobe's value.
+// A white diffuse surface of one lobe under one directional light of colour 1: a fragment's light is the lobe's value.
 #pragma once
 
 #include "shading/planner.hpp"

@@ -1,4 +1,4 @@
-// What the tests of the page share: the program to compare with, models, and the page's state. They are called as
+// Shared by the tests of the page: the program to compare with, models, and the page's state. They are called as
 //   node TEST.mjs PROGRAM PAGE SOURCE_FOLDER WORK_FOLDER
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";

@@ -1,4 +1,4 @@
-// What a visitor meets: models of all formats, marks of a busy page, words, keys, colours, and screens of all sizes.
+// Tests of what a visitor meets: models of all formats, marks of a busy page, words, keys, colours, and screens of all sizes.
 import { copyFileSync, existsSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { begin, check, command_of, end, idle, native_hash, open_model, shown_hash, source, text_of, with_page, words_of, work, write_3mf, write_textured_model,

@@ -32,7 +32,7 @@ const kLibrary = {
   specular: ["none", "phong", "blinn", "ggx"], shadows: ["off", "hard", "soft-split"], tonemap: ["none", "reinhard", "aces", "neutral"],
 };
 
-// What the scripts define, by name. A script's constants are not members of its global object.
+// Returns the scripts' definitions, by name. A script's constants are not members of its global object.
 function load(scripts, globals, names, before = "") {
   const context = createContext({ console, URLSearchParams, Blob, Uint8Array, setTimeout, ...globals });
   const text = scripts.map((name) => readFileSync(join(folder, name), "utf8")).join("\n");

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 /// Adds the frame: size, hash, instruction set, threads, times, counts, warnings, peak memory.
 void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture);
 
-/// What each plane of --section cuts: [{"plane", "part", "name", "area", "closed", "open_ends"}].
+/// The cuts of each plane of --section: [{"plane", "part", "name", "area", "closed", "open_ends"}].
 [[nodiscard]] Json sections_json(const RenderJob& job);
 
 /// {"budget_codes", "bound_codes", "within", "parts"}: the budget of --max-error, and the proven bound with its parts.

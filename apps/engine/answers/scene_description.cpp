@@ -183,7 +183,7 @@ Json materials_json(const RenderJob& job, const shading::ShadingPlan& plan) {
     return materials;
 }
 
-/// What the frame's plan decides.
+/// The decisions of the frame's plan.
 Result<Json> plan_json(const RenderJob& job) {
     const auto frame = raster::plan_frame(job.prepared->data(), job.light, job.camera, job.settings, job.width, job.height);
     if (!frame) return tl::unexpected(frame.error());

@@ -51,7 +51,7 @@ std::string bodies_with(const Json& measures, const char* edges) {
     return fmt::format(" ({} {}{} of body_list)", numbers.size() == 1 ? "body" : "bodies", joined(numbers, ", "), more ? " and more" : "");
 }
 
-/// What measures tell of the surface. FAULT is kept for what makes a report's `good` false.
+/// Warnings about the surface that follow from measures. FAULT is kept for what makes a report's `good` false.
 std::vector<std::string> notes_of_measures(const Json& measures) {
     std::vector<std::string> notes;
     if (!measures.is_object()) return notes;

@@ -24,7 +24,7 @@ struct FarthestPoint {
 /// Requires: neither surface is empty.
 [[nodiscard]] FarthestPoint farthest_point(const Surface& from, const Surface& to, double accuracy);
 
-/// Of farthest_point, besides one for each triangle.
+/// Most points that farthest_point measures, besides one for each triangle.
 inline constexpr std::uint64_t kMostDistancePoints = std::uint64_t{1} << 21;
 
 }  // namespace halflit::engine

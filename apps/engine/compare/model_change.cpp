@@ -64,7 +64,7 @@ Result<std::vector<MeasuredPart>> measured_parts(const RenderJob& job, const Mea
     return out;
 }
 
-/// What is found in one model alone.
+/// Measures of one model alone.
 struct MeasuredModel {
     Result<Measures> whole;
     Result<std::vector<MeasuredPart>> parts;

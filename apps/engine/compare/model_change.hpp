@@ -1,4 +1,4 @@
-// What changed between two models, whatever a view shows of it: measures, parts, and the distance between their surfaces.
+// Changes between two models, whatever a view shows of them: measures, parts, and the distance between their surfaces.
 #pragma once
 
 #include "apps/engine/compare/hausdorff.hpp"
@@ -12,7 +12,7 @@
 
 namespace halflit::engine {
 
-/// Of one model. Lengths are in the file's unit, along its axes.
+/// Measures of one model. Lengths are in the file's unit, along its axes.
 struct ModelNumbers {
     Vec3d size{};
     double area = 0, volume = 0;

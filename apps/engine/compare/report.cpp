@@ -137,10 +137,9 @@ std::string verdict(const Comparison& c) {
 
 std::string unseen_text(const Comparison& c) {
     std::string text = fmt::format(
-        "Seen means: in at least one of the {} views, a triangle is what the first sample of at least one pixel shows. Of a surface that "
-        "is "
-        "seen, a shift of the outline by less than one pixel ({}), or of a surface that faces the view by less than {} along the view, may "
-        "leave no mark.",
+        "A triangle counts as seen if at least one pixel of the {} views shows it at the pixel's first sample. Two changes of a surface "
+        "that is seen may leave no mark: a shift of its outline by less than one pixel ({}), and a shift by less than {} along the view "
+        "where it faces the view.",
         c.views.size(), with_unit(c.pixel(), c.unit), with_unit(c.depth(), c.unit));
     if (c.models.a.unseen_area && c.models.b.unseen_area)
         text += fmt::format(" Not seen: {} of the area of A, {} of that of B.", percent(*c.models.a.unseen_area),
@@ -149,8 +148,8 @@ std::string unseen_text(const Comparison& c) {
         text +=
             fmt::format(" The distance between the surfaces does not depend on views: no point of one is farther than {} from the other.",
                         with_unit(c.models.distance->at_most(), c.unit));
-    text += fmt::format(
-        " Colours that differ by at most {} codes count as equal; faces that are turned show in the numbers of edges alone.", c.max_codes);
+    text += fmt::format(" Colours that differ by at most {} codes count as equal. Faces that are turned show only in the numbers of edges.",
+                        c.max_codes);
     if (c.models.a.points + c.models.a.lines + c.models.b.points + c.models.b.lines > 0)
         text += " Points and lines are compared by pixels and by their number.";
     return text;

@@ -1,4 +1,4 @@
-// What changed in one view of two models, pixel by pixel.
+// Changes in one view of two models, pixel by pixel.
 #pragma once
 
 #include "apps/engine/look/view_shot.hpp"

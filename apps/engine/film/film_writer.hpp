@@ -28,7 +28,7 @@ struct FrameTime {
     friend bool operator==(const FrameTime&, const FrameTime&) = default;
 };
 
-/// What a file of frames needs to know before the first one.
+/// Properties of a file of frames that must be known before the first one.
 struct FilmSettings {
     int width = 0, height = 0;  ///< pixels, of each frame
     std::size_t frames = 0;     ///< that will be added

@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    /// Of lossless compression: 75 and 4 are the library's usual ones, which take four times as long for files 3 % smaller.
+    /// Effort of lossless compression: 75 and 4 are the library's usual ones, which take four times as long for files 3 % smaller.
     static constexpr float kEffort = 20;
     static constexpr int kMethod = 2;
     struct Delete {

@@ -14,7 +14,7 @@
 
 namespace halflit::engine {
 
-/// What a file holds for each pixel.
+/// Value that a file holds for each pixel.
 enum class AovFormat : std::uint8_t {
     floats,    ///< one or three floats: .exr, or .pfm where EXR files cannot be written
     share16,   ///< a share from 0 to 1, of 65535: PNG

@@ -14,7 +14,7 @@
 namespace halflit::engine {
 namespace {
 
-/// What a scene sweeps that turns around a vertical axis: discs on top of each other.
+/// The volume swept by a scene that turns around a vertical axis: discs on top of each other.
 class Profile {
 public:
     explicit Profile(const Bounds& bounds)

@@ -29,7 +29,7 @@ using NameOfInstance = std::function<std::string(std::size_t instance)>;
 /// Numbers of parts begin at 1 where people see them.
 class Parts {
 public:
-    /// Of a scene that is not a file's: each instance is a part.
+    /// Makes the parts of a scene without a file: each instance is a part.
     explicit Parts(const Scene& scene);
     /// In the order of the file's nodes.
     explicit Parts(const LoadedScene& loaded);

@@ -1,4 +1,4 @@
-// What is told of a picture that was drawn.
+// Judgements and warnings about a picture that was drawn.
 #pragma once
 
 #include "apps/engine/job/render_job.hpp"

@@ -273,7 +273,7 @@ Result<PictureRequest> request_of(RenderJob& job, const RenderOptions& options, 
     return request;
 }
 
-/// What was chosen, for people. given: the flags as they were given.
+/// Tells people what was chosen. given: the flags as they were given.
 void tell_choices(RenderJob& job, const RenderOptions& given) {
     const std::vector<Camera>& cameras = job.scene().cameras;
     const bool of_file = job.film.file_camera >= 0, whole = given.own_view() || given.views_parts() || given.film.turntable > 0;
@@ -346,7 +346,7 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
     return {};
 }
 
-/// What excludes what, and what can be told of sizes before a scene is loaded.
+/// Checks flags that exclude each other, and sizes that can be judged before a scene is loaded.
 Result<void> check_view(const RenderOptions& options, PictureSize usual) {
     const bool placed_by_flags = options.camera_position || options.camera_orbit;
     if (placed_by_flags && (options.camera || options.whole_scene || (options.camera_position && options.camera_orbit)))

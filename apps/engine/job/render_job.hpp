@@ -16,7 +16,7 @@
 
 namespace halflit::engine {
 
-/// What decides each frame of a moving picture, and does not depend on which frames are drawn.
+/// Data that decide each frame of a moving picture and do not depend on which frames are drawn.
 struct Film {
     Bounds bounds;                          ///< of all poses; of the scene, if it stands still
     std::vector<Camera> views;              ///< of --view, if it gives several

@@ -24,7 +24,7 @@ bool is_address(const std::string& name) {
            (io::same_word(scheme, "http") || io::same_word(scheme, "https") || io::same_word(scheme, "file"));
 }
 
-/// What to type in place of an address.
+/// Text to type in place of an address.
 std::string instead_of(const std::string& address) {
     constexpr std::size_t kHost = 7;  // behind file://
     if (!io::same_word(address.substr(0, kHost), "file://"))

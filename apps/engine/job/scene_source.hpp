@@ -42,7 +42,7 @@ inline constexpr const char* kStandardInputName = "standard input";
 class SceneKeeper {
 public:
     virtual ~SceneKeeper() = default;
-    /// What load_scene() returns for these options without a keeper. The caller may change the scene.
+    /// Returns what load_scene() returns for these options without a keeper. The caller may change the scene.
     [[nodiscard]] virtual Result<SceneSource> load(const RenderOptions& options) = 0;
 };
 

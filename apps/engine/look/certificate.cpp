@@ -94,7 +94,7 @@ private:
         std::size_t most_new = 0;  ///< upper bound on new_triangles()
         bool used = false;
     };
-    /// What a thread draws directions with.
+    /// Data of a thread that draws directions.
     struct Looker {
         explicit Looker(const TriangleNumbers& numbers) : tally(numbers) {}
         Renderer renderer;
@@ -231,7 +231,7 @@ private:
             std::size_t most = 0;
             for (Around& around : around_) {
                 if (around.used || around.most_new <= most) continue;
-                // What is not new now will not be later.
+                // A triangle that is not new now will not be later.
                 std::erase_if(around.tally, [&](const SeenTriangle& seen) { return !is_new(seen); });
                 around.most_new = around.tally.size();
                 if (around.most_new > most) most = around.most_new, best = &around;

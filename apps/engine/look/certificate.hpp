@@ -20,7 +20,7 @@ enum class TriangleStatus : std::uint8_t {
     not_drawn  ///< of an instance that is not shown, is transparent, or only takes shadow
 };
 
-/// What is known of a triangle.
+/// The status of a triangle, and the picture that shows it best.
 struct TriangleView {
     TriangleStatus status = TriangleStatus::unknown;
     int view = -1;                ///< index into Certificate::shots of the picture that shows it with the most pixels; -1: none
@@ -48,7 +48,7 @@ struct Certificate {
     [[nodiscard]] std::size_t count(TriangleStatus status, std::span<const int> instances = {}) const;
 };
 
-/// What bounds the work.
+/// Limits of the work.
 struct CertificateLimits {
     int least_pixels = 4;         ///< from 1
     std::size_t most_views = 24;  ///< pictures in all, those that were given included

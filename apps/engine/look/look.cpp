@@ -28,7 +28,7 @@ constexpr const char* kPaper = "#eceef1";
 /// Pictures are larger where each triangle has to be seen.
 PictureSize usual_size(const LookOptions& options) { return options.certify > 0 ? kCertifiedSize : kViewSize; }
 
-/// What a sheet of views has unless the flags say otherwise.
+/// Defaults of a sheet of views, which flags may change.
 void set_defaults(LookOptions& options) {
     if (!options.has_given("shadows")) options.settings.shadows = ShadowMode::off;  // their borders look like edges
     if (!options.has_given("edges")) options.settings.edges = EdgeChoice::feature;

@@ -18,7 +18,7 @@ namespace {
 
 Json box_json(const PixelBox& box) { return box.empty() ? Json() : Json{box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0}; }
 
-/// Of the triangles, and the name.
+/// Triangles and name of a part.
 Json part_json(const RenderJob& job, std::size_t number, std::span<const ViewShot> shots, std::span<const ViewContent> contents) {
     const Part& part = job.source.parts->list()[number];
     std::size_t triangles = 0;
@@ -52,7 +52,7 @@ Json seen_json(const PartInView& seen) {
     return one;
 }
 
-/// Of the statuses, in their order.
+/// Names of the statuses, in their order.
 constexpr const char* kStatusNames[] = {"seen", "seen_less", "hidden", "unknown", "no_area", "not_drawn"};
 
 /// Numbers of triangles of a status, by part, instance and ranges [first, last] from 1 on; at most so many ranges.

@@ -1,4 +1,4 @@
-// What views show of a model's parts, counted by pixels, and whether a view can be relied on.
+// Counts the pixels by which views show a model's parts, and tells whether a view can be relied on.
 #pragma once
 
 #include "apps/engine/look/view_shot.hpp"
@@ -28,7 +28,7 @@ struct PartInView {
     std::int64_t hidden_pixels = 0;  ///< that show that part
 };
 
-/// What makes a view one that should not be relied on.
+/// Reasons not to rely on a view.
 struct ViewFaults {
     bool blank = false;    ///< no pixel shows the model, and it is not seen edge-on
     bool cropped = false;  ///< a vertex lies beside the picture

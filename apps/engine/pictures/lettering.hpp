@@ -1,4 +1,4 @@
-// Text on pictures, in DejaVu Sans (apps/halflit/fonts). Text is UTF-8. Characters that the font lacks, control characters and bytes that
+// Text on pictures, in DejaVu Sans (apps/engine/fonts). Text is UTF-8. Characters that the font lacks, control characters and bytes that
 // are not UTF-8 are boxes. Sizes are those of the em square in pixels; letters are kerned, and not hinted.
 #pragma once
 

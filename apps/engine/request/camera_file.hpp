@@ -1,4 +1,4 @@
-// Files of cameras: halflit's own JSON (report/camera_json.hpp writes it) and reports, transforms.json of NeRF and instant-ngp, COLMAP's
+// Files of cameras: halflit's own JSON (answers/camera_json.hpp writes it) and reports, transforms.json of NeRF and instant-ngp, COLMAP's
 // text model, and the cameras of a glTF file.
 #pragma once
 

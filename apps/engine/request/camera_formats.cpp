@@ -105,7 +105,7 @@ Result<std::optional<PictureSize>> size_of(CameraValues& values, const char* wid
 
 constexpr std::array<double, 9> kNoTurn{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/// What the camera sees. Angles and heights of halflit's own cameras come before K, which cannot say every picture's shape.
+/// The camera's lens. Angles and heights of halflit's own cameras come before K, which cannot say every picture's shape.
 Result<GivenCamera> lens_of_own(CameraValues& values) {
     const bool orthographic = values.truth("orthographic");
     const auto size = size_of(values, "width", "height");

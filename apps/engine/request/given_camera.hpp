@@ -17,7 +17,7 @@ struct GivenCamera {
     std::string name{};
     Vec3d right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1};  ///< of the picture, unit vectors; the camera looks against `back`
     Vec3d eye{0, 0, 0};
-    /// What it sees; lengths are in the file's unit. Its name and its place do not count.
+    /// Lens; lengths are in the file's unit. The name and the place of this camera do not count.
     Camera lens{};
     std::optional<PictureSize> size{};  ///< of the picture that it is made for
     bool horizontal_fov = false;        ///< lens.fov_y_rad is the horizontal angle; pixels are square

@@ -60,7 +60,7 @@ Result<int> run_check(const GoldenOptions& options) {
     return finish(*results, options, diffs_text({results->begin(), results->end()}, "scene"));
 }
 
-/// What an update did: one line for each scene that is not as before, and the number of the others.
+/// Summary of an update: one line for each scene that is not as before, and the number of the others.
 std::string update_text(const std::vector<GoldenResult>& results) {
     std::string text;
     std::size_t unchanged = 0;

@@ -152,7 +152,7 @@ std::string first_of(const std::set<std::int64_t>& numbers) {
     return numbers.size() <= kShown ? text : text + fmt::format(" and {} more", numbers.size() - kShown);
 }
 
-/// What the run lacks: nothing, or one line that names the first places and the shards that draw them.
+/// The pictures that the run lacks: nothing, or one line that names the first places and the shards that draw them.
 std::string missing_of(const std::vector<ReportedPicture>& pictures) {
     const auto& [unit, whole, shard] = std::tie(pictures[0].unit, pictures[0].whole, pictures[0].shard);
     const auto all = static_cast<std::int64_t>(whole.count());
@@ -210,7 +210,7 @@ private:
     OutputFormat format_;
 };
 
-/// What makes the output of pictures that it is given in order. `first` is the first of them.
+/// Makes the writer of the output, which takes the pictures in order. `first` is the first of them.
 Result<std::unique_ptr<film::FilmWriter>> make_writer(const std::vector<ReportedPicture>& pictures, const Image& first,
                                                       const MergeOptions& options) {
     const auto& [output, any] = std::tie(options.output, pictures[0]);

@@ -82,7 +82,7 @@ Result<void> divide(Division& run) {
     const auto most = static_cast<std::int64_t>(*kind == RenderKind::film ? line.film.range().count() : line.words.size());
     if (run.shards == 0) run.shards = picture ? kPictureShards : static_cast<int>(std::min<std::int64_t>(most, kMostUsualShards));
     if (!picture && run.shards > most) print_warning(fmt::format("{} of {} shards have nothing to draw", run.shards - most, run.shards));
-    // What only the whole run shows, such as a single file for all frames, is told here.
+    // Errors that only the whole run shows, such as a single file for all frames, are told here.
     line.shard = Shard{0, run.shards};
     line.report.clear();
     if (const auto sharded = settle_shard(line, *kind); !sharded) return sharded;

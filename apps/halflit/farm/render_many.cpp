@@ -69,7 +69,7 @@ private:
     std::uint64_t tickets_ = 0, served_ = 0;
 };
 
-/// What a scene left to tell.
+/// Messages and result of one scene.
 struct Outcome {
     std::string messages, report;
     int code = 0;

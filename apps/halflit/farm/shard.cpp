@@ -9,7 +9,7 @@
 namespace halflit::cli {
 namespace {
 
-/// What a scheduler tells a task.
+/// Environment variables by which a scheduler numbers its tasks.
 struct Scheduler {
     const char* name;
     const char* task;   ///< variable of the task's number

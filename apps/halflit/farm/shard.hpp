@@ -7,7 +7,7 @@
 
 namespace halflit::cli {
 
-/// Of a run's frames or scenes, those at places index, index + count, ...; of one picture, a band of rows.
+/// A part of a run: the frames or scenes at places index, index + count, ...; of one picture, a band of rows.
 struct Shard {
     std::int64_t index = 0, count = 1;  ///< 0 <= index < count
 

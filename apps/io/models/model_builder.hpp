@@ -18,7 +18,7 @@
 
 namespace halflit::io::detail {
 
-/// What formats say more than glTF, or nothing, about a model's frame.
+/// Properties of a model's frame about which formats say more than glTF, or nothing.
 struct ModelFrame {
     UpAxis up = UpAxis::y;  ///< by custom
     double unit_m = 0.0;    ///< length of the file's unit in metres; 0: it has none

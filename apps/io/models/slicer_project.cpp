@@ -119,7 +119,7 @@ private:
     bool named_ = false;
 };
 
-/// Of Slic3r_PE.config: "; extruder_colour = #FF8000;#DB5182", whose empty entries are those of "filament_colour".
+/// Reads Slic3r_PE.config: "; extruder_colour = #FF8000;#DB5182", whose empty entries are those of "filament_colour".
 void read_prusa_colors(std::string_view text, std::vector<Vec4f>& filaments) {
     std::vector<std::string_view> of_extruder, of_filament;
     Lines lines(text);

@@ -1,4 +1,4 @@
-// What slicers write into a 3MF file beside the model: filaments, volumes that are not printed, plates, and painted facets.
+// Data that slicers write into a 3MF file beside the model: filaments, volumes that are not printed, plates, and painted facets.
 #pragma once
 
 #include "apps/io/files/double_box.hpp"

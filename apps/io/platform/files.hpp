@@ -50,7 +50,7 @@ struct FileStatus {
 /// A reason why the path, with '/', could lead to something else than a file of this machine, as a device or a stream of another file does;
 /// empty: none.
 [[nodiscard]] std::string_view fault_of_path(std::string_view path);
-/// What stands before the first name of a path that begins with '/': "/", or on Windows "//" before another computer's.
+/// The part before the first name of a path that begins with '/': "/", or on Windows "//" before another computer's.
 [[nodiscard]] std::string_view root_of(std::string_view path);
 [[nodiscard]] bool is_absolute(std::string_view path);
 /// Place of the last separator of folders, or npos.

@@ -1,3 +1,3 @@
-// What the package exports. Without one of the files for a host, init({ wasm }) says where the code is.
+// The exports of the package. Without one of the files for a host, init({ wasm }) says where the code is.
 export { HalflitError, Picture, Scene, init, load, memory, render } from "./engine.js";
 export { pixelEpoch, version } from "./tables.js";

@@ -1,7 +1,7 @@
 // Starts the module, and puts the kernels of wasm128, a module of their own, into its memory and its table of functions.
 const kKernelStack = 1 << 16;  // bytes: twenty times the largest frame of a kernel
 
-// What the kernels need, by the linker's section dylink.0: a type, a length, and as LEB128 the bytes, log2 of their alignment, functions.
+// Needs of the kernels, by the linker's section dylink.0: a type, a length, and as LEB128 the bytes, log2 of their alignment, functions.
 function needs_of(module) {
   const section = new Uint8Array(WebAssembly.Module.customSections(module, "dylink.0")[0]);
   let at = 2;

@@ -1,4 +1,4 @@
-"""What the program's commands tell: look, compare, explain, measure, section, certify, info. The engine reads the arguments."""
+"""Answers of the program's commands: look, compare, explain, measure, section, certify, info. The engine reads the arguments."""
 from __future__ import annotations
 
 import contextlib
@@ -14,7 +14,7 @@ from ._values import shown
 
 
 class Answer:
-    """What a call tells. `answer["measures"]` is `answer.report["measures"]`."""
+    """The answer of a call. `answer["measures"]` is `answer.report["measures"]`."""
 
     report: Dict[str, Any]  #: as docs/report.md has it
     notes: List[str]  #: lines for people: faults first
@@ -104,7 +104,7 @@ def info(source: Any, **arguments: Any) -> Answer:
 
 
 def explain(source: Any, pixel: Any, **arguments: Any) -> Answer:
-    """What made a pixel (x, y), or each of several, of the picture that `halflit render` draws with these arguments: `halflit explain`."""
+    """Explains a pixel (x, y), or each of several, of the picture that `halflit render` draws with these arguments: `halflit explain`."""
     return call("explain", source, pixel=pixel, **arguments)
 
 

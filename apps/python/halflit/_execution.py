@@ -14,6 +14,7 @@ from ._errors import CancelledError, UsageError
 from ._options import EXECUTION
 from ._threads import CALLING
 
+
 class SceneLock:
     """One thread at a time uses a scene. The callbacks of its frame cannot: the frame would wait for itself."""
 

@@ -106,7 +106,7 @@ def draw_setup(scene: Any, setup: Setup, options: Dict[Any, Any]) -> Picture:
 
 
 def measure(scene: Any, size: Any, quality: Any, known: Any, options: Dict[Any, Any]) -> Dict[str, Any]:
-    """What halflit_measure finds for the view. The scene is locked."""
+    """Result of halflit_measure for the view. The scene is locked."""
     check_names(options, function="measure")
     setup = (choose if options.get("setup") is None else kept)(scene, size, options)
     settings = settings_of(scene, setup, options)

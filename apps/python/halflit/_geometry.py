@@ -260,7 +260,7 @@ class Geometry(SceneBase):
         return found.mesh, matrix
 
     def look(self, index: int) -> Dict[str, Any]:
-        """What else an instance has: color (linear RGBA), material (None: the mesh's), visible, name, node (None: it is of no file)."""
+        """Other properties of an instance: color (linear RGBA), material (None: the mesh's), visible, name, node (None: it is of no file)."""
         found = self._instance(index)
         return {
             "color": tuple(found.color),

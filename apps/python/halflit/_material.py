@@ -90,7 +90,7 @@ class TextureUse(Record):
         return super()._from(value, name, **members)
 
 
-#: What a lobe, or a texture of a material, may be given as.
+#: Types by which a lobe, or a texture of a material, may be given.
 LobeOf = Union[Lobe, LobeMembers, LobeName, Tuple[LobeName, float]]
 TextureOf = Union[TextureUse, TextureUseMembers, int, None]
 

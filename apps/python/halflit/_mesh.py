@@ -20,7 +20,7 @@ def is_unlit(topology: Any, normals: Any) -> bool:
 
 
 class MeshArrays:
-    """What add_mesh() and set_mesh() are given. Everything is checked here, so that a mesh that is refused leaves nothing in the scene."""
+    """Arguments of add_mesh() and set_mesh(). Everything is checked here, so that a mesh that is refused leaves nothing in the scene."""
 
     def __init__(self, name: Optional[str], topology: str, vertices: Any, faces: Any, normals: Any, **attributes: Any) -> None:
         if not isinstance(topology, str) or topology not in CORNERS:

@@ -61,7 +61,7 @@ class Picture(_Base):
         return found
 
     def _told(self) -> Tuple[Any, ...]:
-        """What it has beside the pixels."""
+        """Attributes beside the pixels."""
         return self.report, self.aovs, self.camera, self.settings, self.premultiplied
 
     def _tell(self, told: Tuple[Any, ...]) -> Any:
@@ -168,7 +168,7 @@ class Picture(_Base):
         return straight
 
     def _repr_html_(self) -> Optional[str]:
-        """What Jupyter shows: the picture, with its size and its camera as a text."""
+        """For Jupyter: the picture, with its size and its camera as a text."""
         try:
             data = base64.b64encode(self.to_png()).decode()
         except UsageError:
@@ -183,7 +183,7 @@ class Picture(_Base):
         return f'<img src="data:image/png;base64,{data}" alt="{text}" title="{text}"><br><small>{text}</small>'
 
     def _repr_png_(self) -> Optional[bytes]:
-        """What Jupyter shows; parts that are no picture, such as a row, are shown as numbers."""
+        """For Jupyter; parts that are no picture, such as a row, are shown as numbers."""
         try:
             return self.to_png()
         except UsageError:

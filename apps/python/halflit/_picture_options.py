@@ -96,8 +96,8 @@ class PictureOptions(ViewOptions, total=False):
         shadow_terminator_offset: look-ups on the smooth surface given by the vertex normals, for coarse meshes (False)
         emission_scale: factor on the light that all surfaces emit (not on colours of unlit materials) (1)
         edges: Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide
-            them, glass does not; lines lie on surfaces that they touch. Points at one place are one, as files split vertices.:
-            "none", "feature", "silhouette", "all" (none)
+            them, glass does not. A line that touches a surface is in front of it. Vertices at one position count as one, because
+            files split vertices.: "none", "feature", "silhouette", "all" (none)
         hidden_edges: edges behind surfaces: "none", "dashed" (none)
         edge_angle_deg: between the normals of two triangles, from which on their edge is a line: 0 to 180 (30)
         edge_width: of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)

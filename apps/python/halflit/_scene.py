@@ -332,7 +332,7 @@ class Scene(Geometry, Lighting):
             return measure(self, size, quality, known, dict(options))
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Dict[str, Any]:
-        """What Jupyter shows: the scene in 512 x 512 pixels, and the camera as a text. turntable() gives a view that turns."""
+        """For Jupyter: the scene in 512 x 512 pixels, and the camera as a text. turntable() gives a view that turns."""
         picture = self.render((512, 512))
         return {"text/html": picture._repr_html_(), "image/png": picture._repr_png_()}
 

@@ -1,4 +1,4 @@
-"""What all parts of a scene use: its handle, its lock, and the calls that change it."""
+"""Base of all parts of a scene: its handle, its lock, and the calls that change it."""
 from __future__ import annotations
 
 import ctypes
@@ -11,7 +11,7 @@ from ._loading import sum_of
 
 Self = TypeVar("Self", bound="SceneBase")
 
-#: What a copy remembers.
+#: Attributes that a copy keeps.
 _KEPT = ("_own_lights", "_plain", "_materials", "_smooth", "_own_materials", "_animated")
 
 
@@ -44,7 +44,7 @@ class SceneBase:
 
     @property
     def warnings(self) -> List[str]:
-        """What the loader could not draw, one line each."""
+        """Parts that the loader could not draw, one line each."""
         if self._warnings is None:
             text, lines = ctypes.c_char_p(), []
             with self._lock:  # the texts are the scene's

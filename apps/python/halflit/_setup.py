@@ -1,4 +1,4 @@
-"""What the keywords of the view leave open: camera, light and exposure."""
+"""Chooses what the keywords of the view leave open: camera, light and exposure."""
 from __future__ import annotations
 
 import ctypes
@@ -18,7 +18,7 @@ from ._views import has_parallel_rays, margins, views_of
 
 
 class Setup:
-    """What Scene.setup() chose: size, camera, light and settings. render(setup=...) draws by it again, whatever has moved since."""
+    """The choice of Scene.setup(): size, camera, light and settings. render(setup=...) draws by it again, whatever has moved since."""
 
     def __init__(self, camera: Camera, settings: Any, lighting: Any, size: Tuple[int, int], mark: object) -> None:
         self.size = size  #: width, height

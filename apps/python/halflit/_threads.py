@@ -1,4 +1,4 @@
-"""What each thread is about."""
+"""Which threads draw for the main thread."""
 from __future__ import annotations
 
 import threading
@@ -17,5 +17,5 @@ def _draws_for_main() -> None:
 
 
 def begins_helper() -> Optional[Callable[[], None]]:
-    """What a thread has to call first whose frames this thread waits for: if this is the main thread, Ctrl-C ends them too."""
+    """Function that a thread has to call first if this thread waits for its frames. If this is the main thread, Ctrl-C ends them too."""
     return _draws_for_main if is_for_main() else None

@@ -148,7 +148,7 @@ def material_of(scene: Scene, material: Any) -> Optional[Dict[str, Any]]:
         return None
     members: Dict[str, Any] = {}
     if hasattr(material, "baseColorFactor"):
-        # What glTF begins with. trimesh keeps baseColorFactor, which is linear, in 255ths.
+        # Defaults of glTF. trimesh keeps baseColorFactor, which is linear, in 255ths.
         members.update(metallic=1.0, roughness=1.0, double_sided=bool(getattr(material, "doubleSided", False)))
         if getattr(material, "baseColorFactor", None) is not None:
             members["base_color"] = shares(material.baseColorFactor).tolist()

@@ -55,7 +55,7 @@ turn(0, 0);
 
 
 class Turntable:
-    """What Scene.turntable() drew: notebooks show a view that is turned by dragging or by the arrow keys, save() writes it as a page."""
+    """Views drawn by Scene.turntable(): notebooks show a view that is turned by dragging or by the arrow keys, save() writes it as a page."""
 
     size: Tuple[int, int]  #: width, height of the pictures
     frames: Dict[Tuple[float, float], bytes]  #: (azimuth, elevation) in degrees -> picture, as the bytes of a file
@@ -88,7 +88,7 @@ class Turntable:
         pictures.replace_file(os.fsdecode(_c.required(path, "path")), self.html.encode())
 
     def _repr_html_(self) -> str:
-        """What Jupyter shows: the page in a frame of its own, so that neither changes the other."""
+        """For Jupyter: the page in a frame of its own, so that neither changes the other."""
         import html
 
         width, height = self.size
@@ -96,7 +96,7 @@ class Turntable:
         return f'<iframe srcdoc="{page}" sandbox="allow-scripts" width="{width}" height="{height + _LINE_PX}" style="border:0"></iframe>'
 
     def _repr_png_(self) -> Optional[bytes]:
-        """What Jupyter shows where it runs no scripts, as in notebooks that are not trusted: the first view."""
+        """For Jupyter where it runs no scripts, as in notebooks that are not trusted: the first view."""
         return list(self.frames.values())[self._row * self._columns] if self._kind == "png" else None
 
     def __repr__(self) -> str:

@@ -30,7 +30,7 @@ _OF_WINDOWS = frozenset(
     "visible start_loop callback callback_period caption fixed offset_lines window_conf profile record fullscreen resizable vsync display"
     " screen style".split()
 )
-#: What save_image() of trimesh.Scene was before register().
+#: save_image() of trimesh.Scene as it was before register().
 _original: Any = None
 
 

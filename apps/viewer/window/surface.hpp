@@ -22,7 +22,7 @@ struct Surface {
     [[nodiscard]] Result<void> open(const std::string& title, int width, int height);
     /// The picture from now on.
     void show(const Image& image);
-    /// What was drawn since the last presenting.
+    /// The picture drawn since the last presenting.
     [[nodiscard]] Image screenshot(int width, int height) const;
 
 private:

@@ -23,7 +23,7 @@ function nearer(view, factor, radius) {
   return { ...view, position: plus(view.target, offset, next / distance) };
 }
 
-// What is at the target's distance follows the pointer: right and down are shares of the picture's height.
+// Points at the target's distance follow the pointer: right and down are shares of the picture's height.
 function moved(view, right, down) {
   const back = subtract(view.position, view.target), sideways = unit(cross([0, 1, 0], back)), up = unit(cross(back, sideways));
   const height = 2 * length_of(back) * Math.tan((view.fov * Math.PI) / 360);

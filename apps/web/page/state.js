@@ -1,4 +1,4 @@
-// What the page shows, as one flat record, and its two other forms: the flags of `halflit render`, and the part of a link after the #.
+// The page's state as one flat record, and its two other forms: the flags of `halflit render`, and the part of a link after the #.
 // kLibrary holds the library's own tables (assemble.mjs).
 const kDefaults = {
   scene: "demo", size: "640x360", samples: 4, view: "", time: 0, up: "y",

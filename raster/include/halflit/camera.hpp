@@ -24,7 +24,7 @@ struct ViewSides {
     friend bool operator==(const ViewSides&, const ViewSides&) = default;
 };
 
-/// What a calibration says of a lens without distortion, in pixels of a picture of width x height: u = fx x / z + cx, v = fy y / z + cy,
+/// Calibration of a lens without distortion, in pixels of a picture of width x height: u = fx x / z + cx, v = fy y / z + cy,
 /// with x to the right, y down and z ahead.
 struct Intrinsics {
     double fx = 0, fy = 0;      ///< focal lengths, above 0

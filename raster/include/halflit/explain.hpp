@@ -1,4 +1,4 @@
-// What made a pixel: the surface that it shows, what lies before and behind it, the light of each source, and the error of the result.
+// The story of a pixel: the surface that it shows, what lies before and behind it, the light of each source, and the error of the result.
 #pragma once
 
 #include "halflit/error.hpp"
@@ -57,14 +57,14 @@ struct LightShare {
     std::optional<SurfaceOnRay> hidden_by;
 };
 
-/// What a pixel shows at its first sample.
+/// Kind of what a pixel shows at its first sample.
 enum class PixelShows : std::uint8_t {
     surface,    ///< an opaque or masked surface
     layers,     ///< blended or transmitting surfaces in front of the background
     background  ///< nothing but the background
 };
 
-/// What is behind all surfaces.
+/// Kind of background behind all surfaces.
 enum class BackgroundKind : std::uint8_t { transparent, color, environment };
 
 /// All about one pixel.

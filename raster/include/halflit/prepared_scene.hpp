@@ -31,13 +31,13 @@ struct SceneChanges {
 /// may draw from it at once; none may while it is updated.
 class PreparedScene {
 public:
-    /// Of the execution, threads and parallel_for count. Fails (bad_input) for a faulty scene: an index out of range, arrays of different
-    /// lengths, an invalid lobe.
+    /// Only threads and parallel_for of the execution count. Fails (bad_input) for a faulty scene: an index out of range, arrays of
+    /// different lengths, an invalid lobe.
     [[nodiscard]] HALFLIT_API static Result<PreparedScene> make(const Scene& scene, const Execution& execution = {});
     static Result<PreparedScene> make(Scene&& scene, const Execution& execution = {}) = delete;  // it would not outlive the call
 
     /// @{
-    /// What is moved from may only be assigned to or destroyed.
+    /// A PreparedScene that was moved from may only be assigned to or destroyed.
     HALFLIT_API PreparedScene(PreparedScene&&) noexcept;
     HALFLIT_API PreparedScene& operator=(PreparedScene&&) noexcept;
     /// @}

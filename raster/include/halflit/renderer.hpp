@@ -22,7 +22,7 @@ public:
     HALFLIT_API Renderer();
     HALFLIT_API ~Renderer();
     /// @{
-    /// What is moved from may only be assigned to or destroyed.
+    /// A Renderer that was moved from may only be assigned to or destroyed.
     HALFLIT_API Renderer(Renderer&&) noexcept;
     HALFLIT_API Renderer& operator=(Renderer&&) noexcept;
     /// @}

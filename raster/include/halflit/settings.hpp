@@ -65,7 +65,7 @@ struct Settings {
     /// none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below. 0: none.
     float contact_shadow = 0.0f;
     /// Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide them, glass
-    /// does not; lines lie on surfaces that they touch. Points at one place are one, as files split vertices.
+    /// does not. A line that touches a surface is in front of it. Vertices at one position count as one, because files split vertices.
     EdgeChoice edges = EdgeChoice::none;
     HiddenEdges hidden_edges = HiddenEdges::none;  ///< edges behind surfaces
     float edge_angle_deg = 30.0f;                  ///< between the normals of two triangles, from which on their edge is a line: 0 to 180

@@ -31,7 +31,7 @@ struct Target {
     bool region_alone = false;
     std::size_t row_bytes = 0, linear_row_bytes = 0;  ///< strides of `pixels` and `linear`
 
-    /// What each pixel's first sample shows; blended surfaces and the background do not count. Aligned to 4 bytes.
+    /// Planes of each pixel's first sample; blended surfaces and the background do not count. Aligned to 4 bytes.
     float* depth =
         nullptr;  ///< distance along the view axis, world units; of lines, which lie before their surfaces, less; infinity: nothing
     /// Three floats: the vertices' normals in world space, interpolated and of unit length; on the back of a double-sided material turned

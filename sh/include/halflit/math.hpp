@@ -1,6 +1,6 @@
 // Vectors and matrices. Component order is x, y, z, w. Every sum has one fixed order, written out.
 //
-// What the library computes has the same bits on every machine. The vector operators below are compiled with the caller's flags: where
+// The library's results have the same bits on every machine. The vector operators below are compiled with the caller's flags: where
 // their results must be the same everywhere too, compile with -ffp-contract=off and without -ffast-math. The functions of matrices are the
 // library's own code, and need no flag.
 #pragma once

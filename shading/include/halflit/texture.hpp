@@ -101,7 +101,7 @@ public:
     /// one is never held in memory. Rows are those of the full size.
     [[nodiscard]] HALFLIT_API static Result<TextureBuilder> make(int width, int height, MipRule rule = MipRule::equal, int skip_levels = 0);
     /// @{
-    /// What is moved from may only be destroyed, or assigned to.
+    /// A builder that was moved from may only be destroyed, or assigned to.
     HALFLIT_API TextureBuilder(TextureBuilder&&) noexcept;
     HALFLIT_API TextureBuilder& operator=(TextureBuilder&&) noexcept;
     /// @}

@@ -658,8 +658,8 @@ typedef struct halflit_settings {
     /// factor on the light that all surfaces emit (not on colours of unlit materials) (1)
     float emission_scale;
     /// HALFLIT_EDGES: Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of
-    /// triangles hide them, glass does not; lines lie on surfaces that they touch. Points at one place are one, as files split
-    /// vertices. (none)
+    /// triangles hide them, glass does not. A line that touches a surface is in front of it. Vertices at one position count as one,
+    /// because files split vertices. (none)
     int32_t edges;
     /// HALFLIT_HIDDEN_EDGES: edges behind surfaces (none)
     int32_t hidden_edges;
@@ -678,8 +678,8 @@ typedef struct halflit_settings {
     int32_t reserved[2];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
-/// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message of
-/// a wrong value is the program's.
+/// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message
+/// of a wrong value is the program's.
 HALFLIT_C_API int32_t halflit_settings_read(halflit_settings* settings, const char* name, const char* value);
 
 // ---- what a picture shows ----------------------------------------------------------------------------------------------
@@ -692,7 +692,7 @@ typedef struct halflit_lighting halflit_lighting;
 /// both. NEVER. UNDER_LIGHTS: as FOR_DARK, and a share of the studio where the scene has lights of a known unit.
 enum { HALFLIT_STUDIO_FOR_DARK = 0, HALFLIT_STUDIO_ALWAYS = 1, HALFLIT_STUDIO_NEVER = 2, HALFLIT_STUDIO_UNDER_LIGHTS = 3 };
 
-/// What the caller of halflit_choose_picture() decides; the rest is chosen. Defaults in parentheses.
+/// Decisions of the caller of halflit_choose_picture(); the rest is chosen. Defaults in parentheses.
 typedef struct halflit_picture_request {
     size_t size;
     const halflit_camera* camera;     ///< the view; null: see scene_camera (null)

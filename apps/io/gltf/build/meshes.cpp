@@ -92,7 +92,7 @@ private:
     }
 
     void place(std::size_t index, const std::vector<Made>& primitives, const std::optional<Affine>& in_node) {
-        // What an instance takes until it is drawn; a few bytes may ask for many.
+        // Memory of an instance until it is drawn; a few bytes may ask for many.
         constexpr std::uint64_t kBytesInNode = 1024;
         document_.geometry.take(primitives.size() * (in_node ? kBytesInNode : sizeof(Instance) + sizeof(int)));
         const Affine& world = tree_.world_from_node[index];

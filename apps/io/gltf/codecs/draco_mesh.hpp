@@ -14,7 +14,7 @@
 
 namespace halflit::io::detail {
 
-/// What of a Draco mesh an accessor takes.
+/// The part of a Draco mesh that an accessor takes.
 struct DracoRequest {
     std::uint32_t unique_id = 0;  ///< of the attribute
     int component_type = 0;       ///< glTF's number

@@ -96,7 +96,7 @@ constexpr auto make_material_properties(std::index_sequence<Rows...>) {
 }
 constexpr auto kMaterialProperties = make_material_properties(std::make_index_sequence<shading::kMaterialNumberCount>{});
 
-/// Of KHR_texture_transform, below a place.
+/// Properties of KHR_texture_transform, below a place.
 constexpr Property kTransforms[] = {
     {kMaterials, "/extensions/KHR_texture_transform/offset", Part::material, 2, nullptr},
     {kMaterials, "/extensions/KHR_texture_transform/rotation", Part::material, 1, nullptr},

@@ -188,8 +188,8 @@ struct LoadedScene {
     std::vector<AnimationInfo> animations;  ///< all animations of the file, by their numbers in it
     int animation = -1;                     ///< the animation that poses the scene; -1: none
     std::shared_ptr<const Motion> motion;   ///< for pose_at(); null without LoadOptions::keep_animations
-    /// What the picture lacks, and values that the file must not have, by their JSON path: one line each, no file prefix, at most a hundred
-    /// and one that counts the others.
+    /// Parts that the picture lacks, and values that the file must not have, by their JSON path: one line each, no file prefix, at most a
+    /// hundred and one that counts the others.
     std::vector<std::string> warnings;
     Placement placement;  ///< where the model lies; see LoadOptions::recentre and up
     SceneInfo info;       ///< counts for the user

@@ -103,7 +103,7 @@ std::string whole_path(const std::string& path) {
     namespace fs = std::filesystem;
     std::error_code ignored;
     const fs::path whole = fs::absolute(fs::path(wide(path)), ignored).lexically_normal();
-    // Of a path that is not there, the longest part that is.
+    // The longest part that exists of a path that does not.
     fs::path there = whole, rest;
     for (;;) {
         const std::string name = narrow(there.native());
@@ -111,7 +111,7 @@ std::string whole_path(const std::string& path) {
             const fs::path made = rest.empty() ? fs::path(wide(real)) : fs::path(wide(real)) / rest;
             return plain_path(made.native());
         }
-        // What is there and cannot be told, as a link to a volume without a letter, could lead anywhere.
+        // A file that is there and cannot be judged, as a link to a volume without a letter, could lead anywhere.
         const int error = errno;
         const bool is_missing = (error == ENOENT || error == ENOTDIR) && !is_link(name);
         errno = error;

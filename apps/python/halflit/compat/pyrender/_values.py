@@ -27,7 +27,7 @@ class Checked:
 
 
 class Boxed:
-    """What the box around a thing tells."""
+    """Properties that follow from the box around a thing."""
 
     @property
     def bounds(self) -> Array:

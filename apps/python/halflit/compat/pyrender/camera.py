@@ -15,7 +15,7 @@ def _far(value: Any) -> Optional[float]:
 
 
 class Camera(Checked):
-    """What cameras have in common. Scripts derive their own from it, with a get_projection_matrix(), which alone decides the picture."""
+    """Base of all cameras. Scripts derive their own from it, with a get_projection_matrix(), which alone decides the picture."""
 
     _checks = {"name": text, "znear": bounded("znear", 0, math.inf), "zfar": _far}
     name: Optional[str]

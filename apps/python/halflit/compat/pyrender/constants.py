@@ -9,7 +9,7 @@ SHADOW_TEX_SZ = 2048  # texels on a side
 
 
 class RenderFlags:
-    """What OffscreenRenderer.render() draws, combined by |."""
+    """Flags of OffscreenRenderer.render(), combined by |."""
 
     NONE = 0
     DEPTH_ONLY = 1  # the depth alone is returned

@@ -25,7 +25,7 @@ def _alpha_mode(value: Any) -> str:
 
 
 class Material(Checked):
-    """What materials have in common.
+    """Base of all materials.
 
     Textures are Texture, arrays (h, w, c) or pictures of PIL: normalTexture (tangent space, y up), occlusionTexture (red), emissiveTexture
     (sRGB, times emissiveFactor). alphaMode: "OPAQUE", "MASK" (drawn where alpha is at least alphaCutoff) or "BLEND". doubleSided: back

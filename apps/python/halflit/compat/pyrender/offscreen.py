@@ -94,7 +94,7 @@ class OffscreenRenderer:
 
 
 class _Kept:
-    """What a renderer keeps of a scene."""
+    """Data of a scene that a renderer keeps."""
 
     def __init__(self) -> None:
         self.poses = Poses()

@@ -1,4 +1,4 @@
-"""What needs a window, which is not here."""
+"""Classes that need a window, which is not here."""
 from __future__ import annotations
 
 from typing import Any
