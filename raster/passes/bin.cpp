@@ -54,7 +54,10 @@ public:
             add_triangles(run);
         }
         if (chunk_.listed) sort_by_tile();
-        if (in_.only_used) copy_used_vertices(chunk_, in_.draws, in_.screen);
+        if (in_.only_used) {
+            std::vector<std::uint64_t>().swap(chunk_.pairs);
+            copy_used_vertices(chunk_, in_.draws, in_.screen);
+        }
         count_memory();
     }
 

@@ -127,7 +127,6 @@ void keep_shown(Chunk& chunk, const std::vector<std::uint8_t>& shown, std::span<
     chunk.hidden += before - chunk.records.size();
     if (!chunk.clip_vertices.empty()) keep_clip_vertices(chunk);
     drop_unused_vertices(chunk, draws);
-    std::vector<std::uint64_t>().swap(chunk.pairs);
 }
 
 }  // namespace

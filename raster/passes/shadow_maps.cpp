@@ -6,7 +6,7 @@
 namespace halflit::raster {
 namespace {
 
-/// Geometry of more vertices is not kept for the next frame, because the picture needs as much memory afterwards.
+/// Geometry of more vertices is not kept for the next frame, because the picture needs as much memory afterwards; nor is that of batches.
 constexpr std::int64_t kMostVerticesForNextFrame = std::int64_t{1} << 22;
 
 }  // namespace
@@ -22,7 +22,7 @@ Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& p
     ViewGeometry& geometry = work_->geometry;
     VertexRecords& records = work_->records;
     if (auto ok = geometry.make(scene, face.view, raster, executor); !ok) return ok;
-    work_->most_vertices = std::max(work_->most_vertices, geometry.vertex_count());
+    work_->is_large |= geometry.has_only_used_vertices() || geometry.vertex_count() > kMostVerticesForNextFrame;
     // Alpha tests read vertex records.
     const bool masks = geometry.has(AlphaMode::mask);
     if (masks) records.make(geometry, plan.casters, raster, executor);
@@ -56,7 +56,7 @@ Result<void> ShadowMaps::draw(const PreparedData& scene, const FramePlan& plan, 
         if (i < before.views.size() && before.views[i] == face) continue;
         if (auto ok = draw_face(scene, plan, face, texels.data(), raster, shade, executor); !ok) return ok;
     }
-    if (work_->most_vertices > kMostVerticesForNextFrame) work_ = std::make_unique<Workspace>();
+    if (work_->is_large) work_ = std::make_unique<Workspace>();
     drawn_ = {texels.capacity(), revision.geometry, revision.coverage, plan.options.texture_detail, plan.shadow_views};
     return {};
 }

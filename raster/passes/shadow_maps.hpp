@@ -32,7 +32,7 @@ private:
     struct Workspace {
         ViewGeometry geometry;
         VertexRecords records;
-        std::int64_t most_vertices = 0;  ///< of all faces so far
+        bool is_large = false;  ///< of some face so far
     };
 
     Drawn drawn_;

@@ -8,12 +8,17 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::int64_t kMostVertices = kClipVertex;
-/// Bytes of all triangles in the lists of a view, about 7 million of them, and their share of the memory that a call may take. Beyond
-/// it those that are hidden are dropped.
-constexpr std::size_t kTriangleBudget = std::size_t{256} << 20, kShareOfMemory = 4;
+/// Bytes of the scene's textures and of a view's triangles together, about 6 million of them without textures. The triangles have at
+/// least kLeast, and an eighth of the textures' bytes. Beyond it those that are hidden are dropped.
+constexpr std::size_t kBudget = std::size_t{384} << 20, kLeast = std::size_t{64} << 20, kShareOfTextures = 8;
+/// Share of the memory that a call may take.
+constexpr std::size_t kShareOfMemory = 4;
 
-std::size_t triangle_budget(const StopSignal& call) {
-    return call.memory_limit() == 0 ? kTriangleBudget : std::min(kTriangleBudget, call.memory_limit() / kShareOfMemory);
+std::size_t triangle_budget(const Scene& scene, const StopSignal& call) {
+    std::size_t textures = 0;
+    for (const Texture& texture : scene.textures) textures += texture.data().size_bytes();
+    const std::size_t budget = std::max({kBudget - std::min(textures, kBudget), kLeast, textures / kShareOfTextures});
+    return call.memory_limit() == 0 ? budget : std::min(budget, call.memory_limit() / kShareOfMemory);
 }
 
 tl::unexpected<Error> fail_too_many_vertices() { return fail(ErrorCode::limit, "more than 2^31 vertices in view"); }
@@ -43,7 +48,7 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     times_ms_.cull = watch.lap();
     for (const Batch& batch : batches_)
         if (batch.vertex_count >= kMostVertices) return fail_too_many_vertices();
-    const std::size_t budget = triangle_budget(executor.stop());
+    const std::size_t budget = triangle_budget(scene.scene(), executor.stop());
     std::size_t held = 0, most = budget;
     for (const Batch& batch : batches_) {
         transform(batch, kernels, executor);
@@ -132,8 +137,9 @@ std::size_t Chunk::bytes_used() const {
 }
 
 std::size_t ViewGeometry::bytes_of_chunks(std::size_t first, std::size_t end) const {
+    constexpr std::size_t kBytesOfRecord = 48;  // VertexRecords takes 32 to 80 for each vertex
     std::size_t sum = 0;
-    for (std::size_t c = first; c < end; ++c) sum += chunks_[c]->bytes_used();
+    for (std::size_t c = first; c < end; ++c) sum += chunks_[c]->bytes_used() + kBytesOfRecord * chunks_[c]->used.screen.size();
     return sum;
 }
 

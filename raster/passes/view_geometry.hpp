@@ -6,8 +6,8 @@
 //
 // Views of many vertices are transformed and binned in batches, from draw to draw, and keep only the vertices that their triangles use
 // (used_vertices.hpp): an instance takes some bytes of a file and could take megabytes of memory. Whenever the triangles of the batches
-// take more than a budget, those that no sample shows are dropped (hidden_triangles.cpp): the opaque ones that stay are no more than there
-// are samples.
+// take more than a budget, which they share with the textures, those that no sample shows are dropped (hidden_triangles.cpp): the opaque
+// ones that stay are no more than there are samples.
 #pragma once
 
 #include "halflit/material.hpp"
@@ -186,7 +186,8 @@ private:
     void bin(const Batch& batch, const RasterKernels& kernels, Executor& executor);
     /// Drops triangles of the first chunks that no sample of the view shows.
     void drop_hidden(std::size_t chunks, const RasterKernels& kernels, Executor& executor);
-    /// Bytes of the lists of chunks, without what vectors hold in reserve: the same for each number of threads.
+    /// Bytes of the lists of chunks, without what vectors hold in reserve, and of the vertex records that are made of them: the same for
+    /// each number of threads.
     [[nodiscard]] std::size_t bytes_of_chunks(std::size_t first, std::size_t end) const;
     Result<void> number_used_vertices(Executor& executor);
     Result<void> list_sources();

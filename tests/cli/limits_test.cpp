@@ -1,18 +1,24 @@
 // --timeout and --max-memory, and pictures of which only a part is drawn.
 #include "tests/cli/program.hpp"
 
+#include "halflit/image.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/skip.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <tuple>
 
+using namespace halflit;
 using namespace halflit::test;
 
 namespace {
@@ -215,6 +221,55 @@ TEST_CASE("limits: a scene that needs more than --max-memory ends with 5, a repo
     CHECK(folder.names() == std::vector<std::string>{"a.json"});
     CHECK(run({"sphere:1000000", "--size", "64x64", "--max-memory", "1000", "-o", folder.file("b.png")}).code == 0);
     CHECK(run({"demo", "--max-memory", "31"}).code == 2);
+}
+
+TEST_CASE("limits: textures and triangles of a small file take less than 1 GB together", "[cli][slow]") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    HALFLIT_SKIP("sanitizers take terabytes of addresses");
+#endif
+    if (!abilities().limits_of_memory) HALFLIT_SKIP("no limit of a process's memory here");
+    const TemporaryFolder folder;
+    constexpr int kSide = 5600, kGrid = 50, kNodes = 2000;
+    const Image plain{kSide, kSide, std::vector<std::uint8_t>(std::size_t{4} * kSide * kSide, 255), {}};
+    REQUIRE(write_image(folder.file("a.png"), plain));
+    std::filesystem::copy_file(folder.file("a.png"), folder.file("b.png"));
+    std::string bin;
+    const auto number = [&](double value) { bin += number32(std::bit_cast<std::uint32_t>(static_cast<float>(value))); };
+    for (const bool is_uv : {false, true})
+        for (int y = 0; y <= kGrid; ++y)
+            for (int x = 0; x <= kGrid; ++x) {
+                number(x / 50.0), number(y / 50.0);
+                if (!is_uv) number((x * y % 7) / 100.0);
+            }
+    for (int y = 0; y < kGrid; ++y)
+        for (int x = 0; x < kGrid; ++x)
+            for (const int corner : {0, 1, kGrid + 1, 1, kGrid + 2, kGrid + 1})
+                bin += number32(static_cast<std::uint32_t>(y * (kGrid + 1) + x + corner));
+    write_contents(folder.file("grid.bin"), bin);
+    // A wall of grids that overlap.
+    std::string nodes, list;
+    for (int k = 0; k < kNodes; ++k) {
+        nodes += fmt::format("{}{{\"mesh\":0,\"translation\":[{:.3f},{:.3f},{:.3f}]}}", k == 0 ? "" : ",", k % 64 * 0.306, k / 64 * 0.306,
+                             k * 37 % 200 / 1000.0);
+        list += (k == 0 ? "" : ",") + std::to_string(k);
+    }
+    constexpr int kVertices = (kGrid + 1) * (kGrid + 1), kIndices = 6 * kGrid * kGrid;
+    write_contents(
+        folder.file("wall.gltf"),
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + list + "]}],\"nodes\":[" + nodes +
+            R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]}],)"
+            R"("materials":[{"doubleSided":true,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},)"
+            R"("emissiveTexture":{"index":1},"emissiveFactor":[1,1,1]}],"textures":[{"source":0},{"source":1}],)"
+            R"("images":[{"uri":"a.png"},{"uri":"b.png"}],)" +
+            fmt::format(R"("accessors":[{{"bufferView":0,"componentType":5126,"count":{0},"type":"VEC3"}},)"
+                        R"({{"bufferView":1,"componentType":5126,"count":{0},"type":"VEC2"}},)"
+                        R"({{"bufferView":2,"componentType":5125,"count":{1},"type":"SCALAR"}}],"bufferViews":[)"
+                        R"({{"buffer":0,"byteLength":{2}}},{{"buffer":0,"byteOffset":{2},"byteLength":{3}}},)"
+                        R"({{"buffer":0,"byteOffset":{4},"byteLength":{5}}}],"buffers":[{{"uri":"grid.bin","byteLength":{6}}}]}})",
+                        kVertices, kIndices, 12 * kVertices, 8 * kVertices, 20 * kVertices, 4 * kIndices, bin.size()));
+    const Outcome outcome = run({folder.file("wall.gltf"), "--max-memory", "800", "--threads", "2", "-o", folder.file("wall.jpg")});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
 }
 
 TEST_CASE("limits: of a picture with more pixels than an image may have, a region is drawn", "[cli]") {

@@ -210,7 +210,22 @@ TEST_CASE("output: a file that the scene was read from is not overwritten", "[cl
         CHECK(folder.names() == std::vector<std::string>{"crate.gltf", "crate.png"});
     }
     CHECK(run({"crate.gltf", "-o", "new.png", "-q"}, {.folder = folder.path()}).code == 0);
-    // One of several scenes may refer to a file that another's picture would replace, and that nothing draws.
+    // Nor one that a model names and does not draw.
+    std::ofstream(folder.file("crate.mtl")) << "newmtl a\nmap_Kd crate.png\n";
+    std::ofstream(folder.file("ambient.mtl")) << "newmtl a\nmap_Ka -s 2 2 2 crate.png\nnewmtl b\nmap_Ns crate.png\n";
+    const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", points =
+                                                                             "element vertex 3\nproperty float x\nproperty float y\n"
+                                                                             "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+    for (const std::string& text : {"mtllib crate.mtl\n" + triangle, "mtllib ambient.mtl\nusemtl a\n" + triangle,
+                                    "ply\nformat ascii 1.0\ncomment TextureFile crate.png\n" + points}) {
+        std::ofstream(folder.file("crate.obj")) << text;
+        const Outcome outcome = run({"crate.obj"}, {.folder = folder.path()});
+        CHECK(outcome.code == 4);
+        CHECK(outcome.err.find("crate.png: the scene refers to it") != std::string::npos);
+        CHECK(kept());
+    }
+    for (const char* name : {"crate.obj", "crate.mtl", "ambient.mtl"}) std::filesystem::remove(folder.file(name));
+    // Of several scenes, one may refer to a file that another's picture would replace, and that nothing draws.
     std::ofstream(folder.file("plain.gltf"))
         << R"({"asset":{"version":"2.0"},"images":[{"uri":"crate.png"}],"nodes":[{}],"scenes":[{"nodes":[0]}]})";
     std::filesystem::rename(folder.file("crate.gltf"), folder.file("box.gltf"));

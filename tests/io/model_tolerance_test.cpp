@@ -48,6 +48,49 @@ TEST_CASE("tolerance: colours of PLY are by the range of their values", "[io][pl
     CHECK(color(of("ushort", {"65535 10280 0", "0 0 0", "9 9 9"}), 0) == std::array<int, 3>{255, 40, 0});
     CHECK(color(of("uchar", {"1 1 1", "0 0 0", "1 1 1"}), 0) == std::array<int, 3>{1, 1, 1});
     CHECK(color(points("property uint rgb\n", {"16711935", "0", "255"}), 0) == std::array<int, 3>{255, 0, 255});
+    // HDR: most channels are shares. What is above 1 is 1, and a vertex that is not finite is white.
+    const LoadedScene hdr = of("float", {"0.2 0.4 300.5", "0.6 0.8 0.2", "nan 0 0"});
+    CHECK(color(hdr, 0) == std::array<int, 3>{51, 102, 255});
+    CHECK(color(hdr, 1) == std::array<int, 3>{153, 204, 51});
+    CHECK(color(hdr, 2) == std::array<int, 3>{255, 255, 255});
+    CHECK(is_warned(hdr, "its colours are fractions up to 300.5: read as from 0 to 1, what is above as 1"));
+    CHECK(is_warned(hdr, "1 colours are not finite, and drawn as white"));
+    const LoadedScene means = of("float", {"127.25 40 0", "200 9.5 0", "9 9 1.5"});
+    CHECK(color(means, 0) == std::array<int, 3>{127, 40, 0});
+    CHECK(is_warned(means, "fractions up to 200: read as from 0 to 255"));
+}
+
+TEST_CASE("tolerance: rows of a PLY text count before the header's numbers, and its format may be missing", "[io][ply]") {
+    const auto header = [](int vertices, int faces, const char* more = "") {
+        return fmt::format(
+            "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}"
+            "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+            vertices, more, faces);
+    };
+    const std::string rows = "0 0 0\n1 0 0\n1 1 0\ncomment a square\n0 1 0\n\n3 0 1 2\n3 0 2 3\n";
+    for (const auto& [vertices, faces] : {std::pair(4, 2), {3, 2}, {1, 1}, {9, 2}, {5, 1}, {4, 1}, {2, 9}, {4, 0}}) {
+        INFO(vertices << " vertices, " << faces << " faces");
+        const std::string text = header(vertices, faces) + rows;
+        const LoadedScene loaded = read(text);
+        CHECK(loaded.info.triangles_drawn == 2);
+        CHECK(loaded.scene.meshes.at(0).positions.size() == 4);
+        const bool is_right = vertices == 4 && faces == 2;
+        CHECK(loaded.warnings.empty() == is_right);
+        if (vertices != 4)
+            CHECK(is_warned(loaded, fmt::format("the header says {} elements \"vertex\", but there are 4", vertices).c_str()));
+        CHECK(load_any(to_bytes(text)).has_value() == is_right);
+    }
+    // Rows of one more value look like triangles where it is 3: then the header counts.
+    const std::string more = "property float quality\n", scalars = "0 0 0 3\n1 0 0 3\n1 1 0 3\n0 1 0 3\n";
+    CHECK(read(header(4, 2, more.c_str()) + scalars + "3 0 1 2\n3 0 2 3\n").info.triangles_drawn == 2);
+    CHECK(read(header(4, 1, more.c_str()) + scalars + "3 0 1 2\n3 0 2 3\n").info.triangles_drawn == 2);
+
+    const std::string no_format = replaced(header(4, 2), "format ascii 1.0\n", "") + rows;
+    const LoadedScene loaded = read(no_format);
+    CHECK(loaded.info.triangles_drawn == 2);
+    CHECK(is_warned(loaded, "the header has no format; read as text"));
+    CHECK_FALSE(load_any(to_bytes(no_format)));
+    CHECK_FALSE(load_any(to_bytes(replaced(header(4, 2), "format ascii 1.0\n", "") + std::string(48, '\0')), {}));
 }
 
 TEST_CASE("tolerance: clouds with a scalar, with normals of 0, and 3D Gaussians are coloured", "[io][ply]") {
@@ -108,6 +151,17 @@ TEST_CASE("tolerance: OBJ with odd numbers, faces and orders is drawn", "[io][ob
     CHECK(is_warned(late, "line 6: expected an index, found \"x\""));
     const LoadedScene cloud = read(kTriangle);
     CHECK(cloud.scene.meshes.at(0).topology == Topology::points);
+    for (const char* text :
+         {"v (0, 0, 0)\nv (1, 0, 0)\nv (0, 1.5, 0)\nf 1 2 3\n", "v ( 0 0 0 )\nv [1 0 0]\nv (0,1.5,0)\nf ( 1 2 3 )\nf (1/ 2 3),\n",
+          "V 0 0 0\nV 1 0 0\nv 0 1.5 0\nVN 0 0 1\nF 1//1 2//1 3//1\n", "v (0 0 0\nv (1 0 0\nv (0 1.5 0\nf (1) (2) (3)\n"}) {
+        INFO(text);
+        const LoadedScene loaded = read(text);
+        CHECK(loaded.info.triangles_drawn >= 1);
+        CHECK(loaded.scene.meshes.at(0).positions.at(2) == Vec3f{0, 1.5f, 0});
+        REQUIRE(loaded.warnings.size() == 1);
+        CHECK(loaded.warnings[0].find("; read as it is meant") != std::string::npos);
+        CHECK_FALSE(load_any(to_bytes(text)));
+    }
     for (const char* bad : {"f 1 2\nf 1 2 3\n", "vt 0 0\nf 1/9 2/1 3/1\n"}) CHECK_FALSE(load_any(to_bytes(kTriangle + bad)));
 }
 

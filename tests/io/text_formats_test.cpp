@@ -141,6 +141,17 @@ TEST_CASE("STL: colours of text are read", "[io][stl]") {
     REQUIRE(mesh.colors.size() == 6);
     CHECK(mesh.colors[mesh.indices[0]] == Vec4f{1, 0, 0, 1});
     CHECK(mesh.colors[mesh.indices[3]] == Vec4f{0, 1, 0, 1});
+    // Anywhere in a facet it is the facet's.
+    for (const char* before : {"facet normal", "outer", "vertex 0 0 0", "vertex 1 0 0", "vertex 0 1 0", "endloop"})
+        for (const char* color : {"color 1 0 0\n", "color 255 0 0 ", "COLOR 1.0 0.0 0.0 1.0\n"}) {
+            INFO(color << " before " << before);
+            const LoadedScene within = read("solid a\n" + each(kFacet, before, color + std::string(before)) + "endsolid\n");
+            CHECK(within.warnings.empty());
+            CHECK(within.info.triangles_drawn == 1);
+            CHECK(within.scene.meshes.at(0).colors == std::vector<Vec4f>(3, {1, 0, 0, 1}));
+        }
+    const LoadedScene behind = read("solid a\n" + each(kFacet, "endfacet", "color 1 0 0\nendfacet") + "endsolid\n");
+    CHECK(behind.scene.materials.at(0).base_color.x == 0.5f);  // no facet follows: the usual grey
 }
 
 TEST_CASE("STL: attributes that writers set where they have no colour are none", "[io][stl]") {
@@ -379,8 +390,24 @@ TEST_CASE("MTL: renamed files, tiles, quotes and names in another case are found
     write("part.obj", "newmtl own\nnorm c.png\nusemtl Red\n" + kCorners + "f 1 2 3\n");
     const auto named = io::files_named_by(folder + "/part.obj", {});
     REQUIRE(named);
-    for (const char* name : {"part.mtl", "a.png", "b.png", "c.png"})
-        CHECK(std::any_of(named->begin(), named->end(), [&](const std::string& path) { return path.ends_with(name); }));
+    const auto names = [](const std::vector<std::string>& list, const char* name) {
+        return std::any_of(list.begin(), list.end(), [&](const std::string& path) { return path.ends_with(name); });
+    };
+    for (const char* name : {"part.mtl", "a.png", "b.png", "c.png"}) CHECK(names(*named, name));
+    // What is not drawn is said in one warning, and its pictures are the file's, too: they are not there.
+    write("part.mtl",
+          "newmtl Red\nmap_Ka a.png\nmap_Ns -clamp on b.png\nPr 0.5\nmap_Ks c.png\nrefl -type sphere d.png\nnewmtl x\nmap_Kd e.png\n");
+    write("part.obj", "mtllib part.mtl\nusemtl Red\n" + kCorners + "f 1 2 3\n");
+    const auto unused = load_model(folder + "/part.obj");
+    REQUIRE(unused);
+    REQUIRE(unused->warnings.size() == 1);
+    CHECK(unused->warnings[0] == "material \"Red\": not drawn: map_Ns, refl, map_Ka, map_Ks");
+    for (const char* name : {"part.mtl", "a.png", "b.png", "c.png", "d.png", "e.png"}) CHECK(names(unused->info.files, name));
+    write("part.mtl", "newmtl Red\nmap_Ka a.png\nmap_Kd a.png\n");
+    REQUIRE(write_image(folder + "/a.png", {1, 1, {0, 255, 0, 255}, {}}));
+    const auto both = load_model(folder + "/part.obj");
+    REQUIRE(both);
+    for (const std::string& warning : both->warnings) CHECK(warning.find("not drawn") == std::string::npos);
 
     Image texel{1, 1, {0, 255, 0, 255}, {}};
     REQUIRE(write_image(folder + "/wood.1001.png", texel));

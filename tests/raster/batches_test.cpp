@@ -173,3 +173,23 @@ TEST_CASE("batches: with little memory hidden triangles are dropped on the way, 
     }
     CHECK(dropping >= kScenes / 2);  // where enough of the balls are large in the picture
 }
+
+TEST_CASE("batches: triangles share a budget of memory with the scene's textures, and no pixel shows it", "[raster][batches]") {
+    Random random(5);
+    Shot shot = any_shot(5);
+    shot.scene.instances.clear();
+    shot.settings.region = {}, shot.settings.samples = 16;
+    add_balls(random, shot.scene, 1500);
+    shot.camera = frame_scene(shot.scene, static_cast<float>(kViewWidth) / kViewHeight, {});
+    const MadeView alone = made_view(shot);
+    const Pixels expected = draw(shot);
+    CHECK(alone.kept == alone.drawn);
+    // Copies share their texels: this takes 22 MB.
+    constexpr int kSide = 1440;
+    const std::vector<std::uint8_t> texels(std::size_t{4} * kSide * kSide, 255);
+    shot.scene.textures.resize(shot.scene.textures.size() + 20, Texture::from_rgba8(texels, kSide, kSide, ColorSpace::linear).value());
+    const MadeView beside = made_view(shot);
+    CHECK(beside.drawn == alone.drawn);
+    CHECK(beside.kept < alone.kept);
+    CHECK(differing(expected, draw(shot)) == 0);
+}

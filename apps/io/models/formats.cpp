@@ -26,8 +26,9 @@ int like_obj(const FileBegin& begin) {
     for (const std::string_view line : begin.lines) {
         Words words(line);
         const ObjWord* const row = find_obj_word(words.next());
-        const std::string_view value = words.next();
-        if (row != nullptr && (!row->with_number || parse_loosely(value.substr(0, value.find('/'))))) score += row->score;
+        std::string_view value = words.next();
+        value.remove_prefix(std::min(value.find_first_not_of("([{"), value.size()));
+        if (row != nullptr && (!row->with_number || parse_loosely(value.substr(0, value.find_first_of("/,;)]}"))))) score += row->score;
     }
     return score;
 }

@@ -101,7 +101,6 @@ int ModelBuilder::add_image(file::Image image, std::string where, ColorSpace spa
 
 int ModelBuilder::texture(std::string_view name, std::string where, ColorSpace space, MipRule rule) {
     document_->geometry.take(sizeof(file::Image) + sizeof(std::string) + 4 * name.size() + where.size());
-    add_file(name);
     std::string uri;  // as the picture's reader decodes it
     for (const char c : file_name(name)) {
         if (c == '%' || c == ':')

@@ -4,6 +4,8 @@
 #include "apps/io/models/writer_habits.hpp"
 #include "shading/model/numbers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,15 +29,32 @@ Vec4f linear_of_codes(const double (&codes)[3]) {
     return {linear_color(codes[0] / 255.0), linear_color(codes[1] / 255.0), linear_color(codes[2] / 255.0), 1};
 }
 
+bool is_finite(const Vec4f& c) { return shading::finite(c.x) && shading::finite(c.y) && shading::finite(c.z); }
+
 }  // namespace
 
-double unit_of_colors(std::span<const Vec4f> colors, bool are_whole) {
+void make_linear_by_range(std::span<Vec4f> colors, bool are_whole, Document& document) {
     constexpr float kMostShare = 2.0f;
     float most = 0;
-    for (const Vec4f& c : colors)
-        for (const float value : {c.x, c.y, c.z})
-            if (value > most && shading::finite(value)) most = value;
-    return most <= kMostShare && !are_whole ? 1 : most <= 255 ? 255 : 65535;
+    std::size_t bright = 0, fractions = 0, shares = 0, broken = 0;
+    for (const Vec4f& c : colors) {
+        if (!is_finite(c)) ++broken;
+        for (const float value : {c.x, c.y, c.z}) {
+            if (!(value > 0) || !shading::finite(value)) continue;
+            most = std::max(most, value);
+            ++bright;
+            if (value == std::floor(value)) continue;
+            ++fractions;
+            if (value <= kMostShare) ++shares;
+        }
+    }
+    const bool are_shares = !are_whole && (most <= kMostShare || 2 * shares > bright);
+    const int unit = are_shares ? 1 : most <= 255 ? 255 : 65535;
+    if (broken > 0) document.warn(fmt::format("{} colours are not finite, and drawn as white", broken));
+    if (fractions > 0 && most > kMostShare)
+        document.warn(fmt::format("its colours are fractions up to {:.4g}: read as from 0 to {}{}", most, unit,
+                                  are_shares ? ", what is above as 1" : ""));
+    make_linear(colors, unit);
 }
 
 void make_linear(std::span<Vec4f> colors, double unit) {
@@ -44,10 +63,7 @@ void make_linear(std::span<Vec4f> colors, double unit) {
             if (const auto code = static_cast<std::uint8_t>(value); static_cast<float>(code) == value) return linear_of_code(code);
         return linear_color(static_cast<double>(value) / unit);
     };
-    for (Vec4f& c : colors) {
-        const bool is_finite = shading::finite(c.x) && shading::finite(c.y) && shading::finite(c.z);
-        c = is_finite ? Vec4f{linear(c.x), linear(c.y), linear(c.z), c.w} : Vec4f{1, 1, 1, c.w};
-    }
+    for (Vec4f& c : colors) c = is_finite(c) ? Vec4f{linear(c.x), linear(c.y), linear(c.z), c.w} : Vec4f{1, 1, 1, c.w};
 }
 
 bool drop_no_colors(ModelFormat format, Soup& soup, Document& document) {

@@ -10,8 +10,10 @@
 
 namespace halflit::io::detail {
 
-/// Value of full intensity where the format does not say it: 1, 255 or 65535. 1 if no channel exceeds 2 and not all values are integers.
-[[nodiscard]] double unit_of_colors(std::span<const Vec4f> colors, bool are_whole);
+/// Makes linear light of sRGB where the format does not say whether 1, 255 or 65535 is full intensity. 1 if not all values are integers by
+/// their type, and no channel exceeds 2 or most of those above 0 are fractions below 2, as of HDR. Warns of fractions above 2, which leave
+/// a doubt, and of colours that are not finite.
+void make_linear_by_range(std::span<Vec4f> colors, bool are_whole, Document& document);
 /// Makes linear light of red, green and blue in sRGB, where `unit` stands for 1. Channels that are not finite make the colour white.
 void make_linear(std::span<Vec4f> colors, double unit);
 /// Clears the colours, in linear light, if all are one, and writers of the format mean by it that there is none (writer_habits.hpp); warns

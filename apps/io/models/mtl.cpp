@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace halflit::io::detail {
@@ -85,18 +86,19 @@ constexpr Statement<std::optional<std::array<double, 3>>> kColors[] = {
 constexpr Statement<std::optional<double>> kNumbers[] = {
     {"ns", &MtlMaterial::ns}, {"d", &MtlMaterial::d}, {"tr", &MtlMaterial::tr}, {"pr", &MtlMaterial::pr}, {"pm", &MtlMaterial::pm}};
 constexpr Statement<MtlTexture> kMaps[] = {
-    {"map_kd", &MtlMaterial::map_kd}, {"map_ks", &MtlMaterial::map_ks}, {"map_pr", &MtlMaterial::map_pr}, {"map_pm", &MtlMaterial::map_pm},
-    {"map_ke", &MtlMaterial::map_ke}, {"map_d", &MtlMaterial::map_d},   {"map_bump", &MtlMaterial::bump}, {"bump", &MtlMaterial::bump},
-    {"norm", &MtlMaterial::norm},     {"map_kn", &MtlMaterial::norm}};
-/// Ka and map_Ka say how much of the light from around is returned, which the base colour does; illum is the model of a renderer.
-constexpr std::string_view kNotUsed[] = {"ka", "map_ka", "illum", "ni", "tf", "sharpness"};
+    {"map_ka", &MtlMaterial::map_ka}, {"map_kd", &MtlMaterial::map_kd}, {"map_ks", &MtlMaterial::map_ks}, {"map_pr", &MtlMaterial::map_pr},
+    {"map_pm", &MtlMaterial::map_pm}, {"map_ke", &MtlMaterial::map_ke}, {"map_d", &MtlMaterial::map_d},   {"map_bump", &MtlMaterial::bump},
+    {"bump", &MtlMaterial::bump},     {"norm", &MtlMaterial::norm},     {"map_kn", &MtlMaterial::norm}};
+/// Ka says how much of the light from around is returned, which the base colour does; illum is the model of a renderer.
+constexpr std::string_view kNotUsed[] = {"ka", "illum", "ni", "tf", "sharpness"};
 template <class Table>
 auto find_statement(const Table& table, std::string_view word) {
     const auto row = std::find_if(std::begin(table), std::end(table), [&](const auto& one) { return same_word(word, one.name); });
     return row == std::end(table) ? nullptr : &*row;
 }
-void note_not_drawn(std::string_view word, MtlMaterial& m) {
+void note_not_drawn(std::string_view word, TextScanner& words, MtlMaterial& m) {
     if (m.not_drawn.size() < 8) m.not_drawn.push_back(printable(word, 20));
+    if (std::string file = read_texture(words).file; is_picture_name(file)) m.other_pictures.push_back(std::move(file));
 }
 
 /// A statement of a material. False: MTL has none of this name.
@@ -117,7 +119,7 @@ bool read_statement(std::string_view word, TextScanner& words, MtlMaterial& m) {
     } else if (std::none_of(std::begin(kNotUsed), std::end(kNotUsed), [&](std::string_view one) { return same_word(word, one); })) {
         return false;
     }
-    if (!is_read) note_not_drawn(word, m);
+    if (!is_read) note_not_drawn(word, words, m);
     return true;
 }
 
@@ -144,9 +146,13 @@ public:
             if ((from_.*row.value).is_tile)
                 builder_.document().warn(fmt::format("material \"{}\": of its picture's tiles the first alone is drawn: {}",
                                                      printable(m.name, 80), printable((from_.*row.value).file, 120)));
-        if (!from_.not_drawn.empty())
-            builder_.document().warn(
-                fmt::format("material \"{}\": not drawn: {}", printable(m.name, 80), fmt::join(from_.not_drawn, ", ")));
+        std::vector<std::string> not_drawn = from_.not_drawn;
+        for (const auto& [key, map, drawn] : {std::tuple("map_Ka", &from_.map_ka, from_.map_ka.file == from_.map_kd.file),
+                                              {"map_Ks", &from_.map_ks, m.textures[TextureSlot::specular_color].used()},
+                                              {"map_Bump", &from_.bump, from_.norm.file.empty() || from_.norm.file == from_.bump.file}})
+            if (!map->file.empty() && !drawn) not_drawn.emplace_back(key);
+        if (!not_drawn.empty())
+            builder_.document().warn(fmt::format("material \"{}\": not drawn: {}", printable(m.name, 80), fmt::join(not_drawn, ", ")));
         return builder_.add_material(m);
     }
 
@@ -267,6 +273,7 @@ bool MtlText::take(std::string_view word, TextScanner& scanner) {
 void add_pictures(const MtlMaterial& material, ModelBuilder& builder) {
     for (const auto& row : kMaps)
         if (const std::string& file = (material.*row.value).file; !file.empty()) builder.add_file(file);
+    for (const std::string& file : material.other_pictures) builder.add_file(file);
 }
 
 void read_mtl(std::string_view text, const std::string& name, ModelBuilder& builder, std::vector<MtlMaterial>& materials) {
@@ -275,7 +282,7 @@ void read_mtl(std::string_view text, const std::string& name, ModelBuilder& buil
     for (std::string_view word = scanner.word(); !word.empty(); word = scanner.word()) {
         if (!reader.take(word, scanner)) {
             if (MtlMaterial* const material = reader.material())
-                note_not_drawn(word, *material);
+                note_not_drawn(word, scanner, *material);
             else
                 scanner.unknown(word, "newmtl");
         }

@@ -27,8 +27,9 @@ struct MtlMaterial {
     std::string name;
     std::optional<std::array<double, 3>> kd, ks, ke;  ///< diffuse, mirrored, emitted
     std::optional<double> ns, d, tr, pr, pm;          ///< exponent, opacity, transparency, roughness, metalness
-    MtlTexture map_kd, map_ks, map_ke, map_d, map_pr, map_pm, bump, norm;
-    std::vector<std::string> not_drawn;  ///< statements that the picture lacks
+    MtlTexture map_ka, map_kd, map_ks, map_ke, map_d, map_pr, map_pm, bump, norm;
+    std::vector<std::string> not_drawn;       ///< statements that the picture lacks
+    std::vector<std::string> other_pictures;  ///< that these name
 };
 
 /// A name without quotes around it.

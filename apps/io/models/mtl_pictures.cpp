@@ -53,7 +53,6 @@ Image combined(const Image& a, const Image& b, const Write& write) {
 
 Result<Image> MtlPictures::decode(const std::string& file) {
     if (file.empty()) return Image{1, 1, {255, 255, 255, 255}, {}};
-    builder_.add_file(file);
     const LoadLimits& limits = builder_.options().limits;
     const std::string name = ModelBuilder::file_name(file);
     const auto bytes = builder_.document().read_named(name);

@@ -61,6 +61,7 @@ public:
     }
 
     void finish() {
+        libraries_.add_files();
         std::vector<int> materials;
         std::vector<std::string> names;
         for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -100,6 +101,7 @@ private:
 
     void read_statement(std::string_view word) {
         const ObjWord* const row = find_obj_word(word);
+        if (row != nullptr && row->word != word) scanner_.loose(word, "a statement in small letters");
         switch (row == nullptr ? ObjStatement::of_mtl : row->statement) {
             case ObjStatement::position:
                 return read_position();
@@ -190,8 +192,7 @@ private:
         if (soup_.colors.empty()) {
             read_painted();
         } else {
-            const double unit = unit_of_colors(soup_.colors, false);
-            make_linear(soup_.colors, unit);
+            make_linear_by_range(soup_.colors, false, builder_.document());
         }
         drop_no_colors(ModelFormat::obj, soup_, builder_.document());
         if (soup_.colors.empty()) return;
@@ -252,7 +253,6 @@ private:
     /// v, v/vt, v//vn or v/vt/vn.
     bool read_corner(std::string_view word, Corner& corner) {
         corner = {kNone, kNone, kNone};
-        while (!word.empty() && (word.back() == ',' || word.back() == ';')) word.remove_suffix(1);
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t slash = std::min(word.find('/'), word.size());
             const std::string_view text = word.substr(0, slash);
@@ -292,7 +292,7 @@ private:
     /// True if vertices of the corners that come next are not there yet.
     [[nodiscard]] bool is_late() {
         bool late = false;
-        for (std::string_view word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
+        for (std::string_view word = scanner_.bare_word_in_line(); !word.empty(); word = scanner_.bare_word_in_line()) {
             const auto index = parse_whole<std::int64_t>(word.substr(0, word.find('/')));
             if (!index || *index <= 0) return false;  // those that count back are known
             late = late || static_cast<std::uint64_t>(*index) > soup_.positions.size();
@@ -318,7 +318,7 @@ private:
         const TextScanner::Mark begin = scanner_.mark();
         const std::size_t lost = lost_attributes_;
         corners_.clear();
-        for (std::string_view word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
+        for (std::string_view word = scanner_.bare_word_in_line(); !word.empty(); word = scanner_.bare_word_in_line()) {
             if (read_corner(word, corners_.emplace_back())) continue;
             scanner_.go_back(begin);
             if (late_are_read_ || !is_late()) return void(++bad_faces_);

@@ -1,6 +1,8 @@
 // Words that begin a statement of OBJ.
 #pragma once
 
+#include "apps/io/files/text.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
@@ -75,10 +77,10 @@ inline constexpr ObjWord kObjWords[] = {
     {"csh", ObjStatement::passed_over, 0, false},
 };
 
-/// Null: OBJ has no such word.
+/// Null: OBJ has no such word, in any case.
 [[nodiscard]] inline const ObjWord* find_obj_word(std::string_view word) {
     const auto* const found =
-        std::find_if(std::begin(kObjWords), std::end(kObjWords), [&](const ObjWord& row) { return row.word == word; });
+        std::find_if(std::begin(kObjWords), std::end(kObjWords), [&](const ObjWord& row) { return same_word(word, row.word); });
     return found == std::end(kObjWords) ? nullptr : found;
 }
 

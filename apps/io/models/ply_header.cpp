@@ -91,12 +91,15 @@ PlyHeader read_ply_header(std::span<const std::byte> bytes, Document& document) 
             scanner.unknown(word, "element, property or end_header");
         }
     }
-    if (!has_format) refuse("", "the header has no format");
     scanner.skip_line();
     scanner.warn();
     header.lines = scanner.line();
     header.body = scanner.left();
     header.body.remove_prefix(header.body.starts_with("\r\n") ? 2 : header.body.empty() ? 0 : 1);
+    if (const LoadFailure failure{{ErrorCode::bad_input, "the header has no format"}}; !has_format) {
+        if (!begins_as_text(std::as_bytes(std::span(header.body)))) throw failure;
+        document.go_on_without(failure, "read as text");
+    }
     return header;
 }
 

@@ -157,10 +157,11 @@ struct Layout {
         return {share(harmonic_0), share(harmonic_1), share(harmonic_2), alpha >= 0 && alpha <= 1 ? static_cast<float>(alpha) : 0.0f};
     }
     /// Makes linear light of colours as color() gives them.
-    void make_linear(std::span<Vec4f> colors) const {
+    void make_linear(std::span<Vec4f> colors, Document& document) const {
         if (has_label()) return;
-        const bool are_bytes = has_channels() && type[red] == PlyType::u8, are_whole = has_channels() ? is_whole(type[red]) : has[packed];
-        detail::make_linear(colors, are_bytes ? 255 : unit_of_colors(colors, are_whole));
+        const bool are_whole = has_channels() ? is_whole(type[red]) : has[packed];
+        if (has_channels() && type[red] == PlyType::u8) return detail::make_linear(colors, 255);
+        make_linear_by_range(colors, are_whole, document);
     }
 };
 
@@ -169,8 +170,14 @@ public:
     PlyReader(std::span<const std::byte> bytes, ModelBuilder& builder)
         : header_(read_ply_header(bytes, builder.document())), values_(header_, builder.document()), builder_(builder) {}
 
+    void add_files() {
+        for (const std::string_view name : header_.textures) builder_.add_file(name);
+    }
+
     void read() {
+        add_files();
         name_elements();
+        values_.mend_counts(header_.elements, builder_.document());
         const auto find = [&](const auto& is) { return std::find_if(header_.elements.begin(), header_.elements.end(), is); };
         const auto vertices = find([](const PlyElement& e) { return e.name == kVertex && e.count > 0; });
         const auto corners = find([](const PlyElement& e) { return (e.name == kFace || e.name == kStrips) && e.count > 0; });
@@ -384,7 +391,7 @@ private:
             if (vertex_has_uv_) soup_.uvs.push_back({static_cast<float>(row[tu]), static_cast<float>(1.0 - row[tv])});
             if (has_color) soup_.colors.push_back(layout.color(row));
         }
-        if (has_color) layout.make_linear(soup_.colors);
+        if (has_color) layout.make_linear(soup_.colors, builder_.document());
         if (layout.has_label()) builder_.document().warn("has no colours: drawn by its labels, a colour for each");
         if (drop_no_colors(ModelFormat::ply, soup_, builder_.document())) vertex_has_color_ = false;
         if (by_scalar) color_by_scalar(layout.scalar_name);
@@ -417,7 +424,7 @@ private:
         Row row{};
         const std::size_t first_color = soup_.colors.size();
         const auto finish_colors = [&] {
-            layout.make_linear(std::span(soup_.colors).subspan(first_color));
+            layout.make_linear(std::span(soup_.colors).subspan(first_color), builder_.document());
             if (!vertex_has_color_) drop_no_colors(ModelFormat::ply, soup_, builder_.document());
         };
         try {
@@ -529,7 +536,7 @@ LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_d
 
 std::vector<std::string> files_of_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     ModelBuilder builder(bytes, base_dir, options, "PLY");
-    for (const std::string_view name : read_ply_header(bytes, builder.document()).textures) builder.add_file(name);
+    PlyReader(bytes, builder).add_files();
     return builder.finish({}).info.files;
 }
 

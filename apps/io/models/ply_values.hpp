@@ -11,8 +11,10 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace halflit::io::detail {
 
@@ -25,6 +27,33 @@ public:
           words_(header.body, document, "", false, header.lines + 1),
           binary_(header.body) {
         words_.expect_next("another element");
+    }
+
+    /// Rows of a text, each a line, count before the header: a row that has the form of a later element alone ends an element before its
+    /// number of rows, and those that have its own form alone go on behind it. Nothing where a line has another form, or none is too many
+    /// or too few.
+    void mend_counts(std::vector<PlyElement>& elements, Document& document) {
+        if (format_ != PlyFormat::ascii || lines_are(elements)) return;
+        const TextScanner::Mark begin = words_.mark();
+        std::vector<std::uint64_t> found;
+        TimeCheck check;
+        for (auto element = elements.begin(); element != elements.end(); ++element) {
+            std::uint64_t rows = 0;
+            const auto is_later = [&] { return std::any_of(element + 1, elements.end(), [&](const PlyElement& e) { return fits(e); }); };
+            for (; go_to_row() && fits(*element) && (rows < element->count || !is_later()); ++rows, words_.skip_line()) check();
+            const bool has_row = go_to_row();
+            if (has_row && !is_later()) break;
+            found.push_back(has_row ? rows : std::max(rows, element->count));  // of a file that was cut off
+        }
+        words_.go_back(begin);
+        if (found.size() < elements.size()) return;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i] == elements[i].count) continue;
+            document.go_on_without({{ErrorCode::bad_input, fmt::format("the header says {} elements \"{}\", but there are {}",
+                                                                       elements[i].count, printable(elements[i].name, 40), found[i])}},
+                                   "these are read");
+            elements[i].count = found[i];
+        }
     }
 
     void begin_row() { taken_ = 0; }
@@ -88,13 +117,44 @@ public:
 private:
     /// Goes to the next word that is not of a comment, which some programs write into the body.
     void find_word() {
-        for (;; words_.skip_line()) {
-            if (!words_.go_to_word()) end();
-            if (!words_.is_at_line_begin() || lower(words_.left()[0]) < 'a') break;
-            const std::string_view word = words_.next_in_line();
-            if (!same_word(word, "comment") && !same_word(word, "obj_info")) break;
-        }
+        if (!go_to_row()) end();
         ++taken_;
+    }
+    /// The same. False at the end of the text.
+    bool go_to_row() {
+        for (;; words_.skip_line()) {
+            if (!words_.go_to_word()) return false;
+            if (!words_.is_at_line_begin() || lower(words_.left()[0]) < 'a') return true;
+            const std::string_view word = words_.next_in_line();
+            if (!same_word(word, "comment") && !same_word(word, "obj_info")) return true;
+        }
+    }
+    /// True if a text has as many lines, blank ones aside, as the elements have rows.
+    [[nodiscard]] bool lines_are(const std::vector<PlyElement>& elements) const {
+        std::uint64_t lines = 0, rows = 0;
+        for (const PlyElement& element : elements) rows += element.properties.empty() ? 0 : element.count;
+        TimeCheck check;
+        for (std::string_view left = words_.left(); !left.empty(); check()) {
+            if (!is_line_end(left[0])) ++lines;
+            left.remove_prefix(std::min(left.find('\n'), left.size() - 1) + 1);
+        }
+        return lines == rows;
+    }
+    /// True if the line that comes next has the words of one of the element's rows.
+    [[nodiscard]] bool fits(const PlyElement& element) {
+        const TextScanner::Mark begin = words_.mark();
+        const auto pass = [&](std::uint64_t values) {
+            while (values > 0 && parse_loosely(words_.word_in_line())) --values;
+            return values == 0;
+        };
+        bool is_fit = !element.properties.empty();
+        for (const PlyProperty& p : element.properties) {
+            const auto length = p.is_list && is_fit ? TextScanner::parse_count(words_.word_in_line()) : std::optional<std::uint64_t>(1);
+            is_fit = is_fit && length && pass(*length);
+        }
+        is_fit = is_fit && words_.next_in_line().empty();
+        words_.go_back(begin);
+        return is_fit;
     }
 
     [[noreturn]] void end() const {

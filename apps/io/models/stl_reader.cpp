@@ -306,7 +306,7 @@ LoadedScene read_stl(std::span<const std::byte> bytes, const std::string& /*base
         soup = read_binary(bytes, builder, has_colors);
     } else {
         soup = StlText(as_text(bytes), builder).read();
-        has_colors = !soup.colors.empty();
+        has_colors = !soup.color_of.empty();
     }
     const int material = has_colors ? builder.colored_material() : builder.grey_material();
     builder.place_alone(std::move(soup), {&material, 1});

@@ -11,6 +11,24 @@
 
 namespace halflit::io::detail {
 
+namespace {
+
+constexpr std::string_view kOpening = "([{", kClosing = ")]}", kBehind = ")]},;";
+
+}  // namespace
+
+std::string_view TextScanner::bare_word_in_line() {
+    for (std::string_view whole = word_in_line(); !whole.empty(); whole = word_in_line()) {
+        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+        if (is_digit(whole.front()) && is_digit(whole.back())) return whole;
+        std::string_view word = whole.substr(std::min(whole.find_first_not_of(kOpening), whole.size()));
+        word = word.substr(0, word.find_last_not_of(kBehind) + 1);
+        if (word.data() != whole.data() || whole.find_first_of(kClosing) != whole.npos) loose(whole, "a word without brackets");
+        if (!word.empty()) return word;
+    }
+    return {};
+}
+
 void TextScanner::pass_comment() {
     const char* const from = at_;
     while (at_ < end_ && !is_line_end(*at_)) ++at_;
@@ -76,18 +94,29 @@ bool TextScanner::parse_odd_number(double& value) {
     while (behind < end_ && !is_space(*behind) && !is_joined_end(behind)) ++behind;
     std::string_view word(at_, static_cast<std::size_t>(behind - at_));
     const bool strict = document_->options.strict;
+    bool has_brackets = false;
     if (!strict) {
+        const std::size_t opening = std::min(word.find_first_not_of(kOpening), word.size());
+        word.remove_prefix(opening);
         // "1.5, 2", "1.5;2" and "1,2,3": the number ends at the first of them. A single comma without a point is decimal.
         const bool is_part = at_ > begin_ && (at_[-1] == ',' || at_[-1] == ';');
         const bool is_decimal = !is_part && std::count(word.begin(), word.end(), ',') == 1 &&
                                 word.find_first_of(".;") == std::string_view::npos && word.back() != ',';
         if (const std::size_t part = is_decimal ? std::string_view::npos : word.find_first_of(",;"); part != std::string_view::npos) {
+            behind = word.data() + part + 1;
             word = word.substr(0, part);
-            behind = at_ + part + 1;
+        }
+        const std::size_t size = word.find_last_not_of(kClosing) + 1;
+        has_brackets = opening > 0 || size < word.size();
+        word = word.substr(0, size);
+        if (has_brackets && word.empty()) {  // brackets alone
+            at_ = behind;
+            return find_word() && parse_number(value);
         }
     }
     const std::optional<double> found = strict ? parse_real<double>(word) : parse_loosely(word);
     if (!found) return false;
+    if (has_brackets) loose({at_, static_cast<std::size_t>(behind - at_)}, "a number without brackets");
     value = *found;
     at_ = behind;
     check_();
@@ -128,11 +157,11 @@ std::string TextScanner::where() const {
 }
 
 void TextScanner::warn() {
-    for (Noted* const noted : {&unknown_, &wrong_}) {
+    for (const auto& [noted, instead] :
+         {std::pair(&unknown_, "passed over"), {&wrong_, "what needs the value is left out"}, {&loose_, "read as it is meant"}}) {
         if (noted->count == 0) continue;
         const std::string others = noted->count > 1 ? fmt::format(" (and {} more)", noted->count - 1) : "";
-        document_->go_on_without({{ErrorCode::bad_input, noted->first + others}},
-                                 noted == &unknown_ ? "passed over" : "what needs the value is left out");
+        document_->go_on_without({{ErrorCode::bad_input, noted->first + others}}, instead);
         noted->count = 0;
     }
     if (const std::size_t rows = std::exchange(long_rows_, 0); rows > 0)

@@ -1,6 +1,7 @@
 // Words and numbers of the text formats: STL, OBJ, MTL, OFF and PLY are read by one rule. White space of any kind parts words, `#` at the
-// start of a word begins a comment up to the line's end, numbers may have commas or semicolons behind them. A word that a format does not
-// have is passed over, and a value that is no number is read as NaN: one warning for each kind, with the first place. `--strict` refuses.
+// start of a word begins a comment up to the line's end, numbers may have commas or semicolons behind them, and brackets around. A word
+// that a format does not have is passed over, and a value that is no number is read as NaN: one warning for each kind, with the first
+// place. `--strict` refuses.
 #pragma once
 
 #include "apps/io/gltf/file/document.hpp"
@@ -44,7 +45,9 @@ public:
     }
     /// The next word of this line; empty at its end.
     std::string_view word_in_line() { return find_word() ? take_word() : std::string_view(); }
-    /// The same, which stays.
+    /// The same without brackets, which are noted, commas and semicolons around it; those alone are passed over.
+    std::string_view bare_word_in_line();
+    /// The same as word_in_line(), which stays.
     std::string_view next_in_line() {
         if (!find_word()) return {};
         const char* behind = at_;
@@ -101,6 +104,8 @@ public:
     // ---- what is wrong -------------------------------------------------------------------------------------------------
     /// Notes a word that the format does not have here. Strict: refuses it.
     void unknown(std::string_view found, std::string_view expected);
+    /// Notes a word in another form than `expected`, which is read. Strict: refuses it.
+    void loose(std::string_view found, std::string_view expected) { note(loose_, found, expected); }
     /// Notes a value that is not `expected`; found: the word there, empty at the line's end. Returns not a number. Strict: refuses it.
     double wrong(std::string_view found, std::string_view expected);
     /// Refuses what was found, at this line.
@@ -191,7 +196,7 @@ private:
     TimeCheck check_;
     std::string_view kept_mark_;
     std::vector<std::string_view>* kept_ = nullptr;
-    Noted unknown_, wrong_;
+    Noted unknown_, wrong_, loose_;
     std::size_t long_rows_ = 0;
 };
 

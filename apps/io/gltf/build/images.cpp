@@ -27,11 +27,12 @@ std::uint64_t texture_bytes(int width, int height) {
 /// Pixels that may be decoded for each byte of max_texture_bytes, which bounds the time: 16 pictures of 8192 x 8192 for 1 GiB.
 constexpr std::uint64_t kMostPixelsAByte = 1;
 
-/// Memory that the textures may take: small files, whose pictures hold little, get less.
+/// Memory that the textures may take: small files, whose pictures hold little, get less, so that there is room for 500 MB of triangles
+/// (raster/passes/view_geometry.cpp) and the geometry in the 1 GB of files below kSmall.
 std::uint64_t texture_limit(const Document& document) {
-    constexpr std::uint64_t kFree = std::uint64_t{96} << 20, kByByte = 640;
-    const std::uint64_t most = document.options.limits.max_texture_bytes;
-    return document.options.strict ? most : std::min(most, kFree + kByByte * (document.file_bytes + document.named_bytes));
+    constexpr std::uint64_t kFree = std::uint64_t{96} << 20, kByByte = 256, kSmall = 1'000'000, kByByteMore = 2000;
+    const std::uint64_t most = document.options.limits.max_texture_bytes, bytes = document.file_bytes + document.named_bytes;
+    return document.options.strict ? most : std::min(most, kFree + kByByte * bytes + kByByteMore * (std::max(bytes, kSmall) - kSmall));
 }
 
 /// Takes a picture that is lost out of a material. A factor that scales what the picture has only here and there is off without it.

@@ -2,6 +2,7 @@
 
 #include "apps/io/files/text.hpp"
 #include "sh/time_limit.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -168,16 +170,26 @@ private:
             v.text = string(v.in_place);
         } else if (c == '-' || (c >= '0' && c <= '9')) {
             number(v);
-        } else if (text_.substr(at_, 4) == "true" || text_.substr(at_, 5) == "false") {
-            v.type = JsonType::boolean;
-            v.truth = c == 't';
-            at_ += c == 't' ? 4 : 5;
-        } else if (text_.substr(at_, 4) == "null") {
-            at_ += 4;
-        } else {
+        } else if (!literal(v)) {
             loose_number(v, other_than("a JSON value"));
         }
         visitor_.on_value(v, at_);
+    }
+
+    /// A word with a meaning, in any case; None is Python's null. False: there is none.
+    bool literal(JsonValue& v) {
+        static constexpr std::pair<std::string_view, JsonType> kWords[] = {
+            {"true", JsonType::boolean}, {"false", JsonType::boolean}, {"null", JsonType::null}, {"none", JsonType::null}};
+        for (const auto& [word, type] : kWords) {
+            const std::string_view found = text_.substr(at_, word.size());
+            if (!same_word(found, word)) continue;
+            if (found != word || word == "none") visitor_.on_loose(other_than("a JSON value"));
+            v.type = type;
+            v.truth = word == "true";
+            at_ += word.size();
+            return true;
+        }
+        return false;
     }
 
     /// Passes digits; false: there are none.
@@ -226,15 +238,10 @@ private:
         return nullptr;
     }
 
-    /// The value of a text that begins with a number; returns its end.
-    const char* convert(std::string_view text, double& value) const {
+    /// The value of a text that begins with a number; returns its end. One that is too large is infinite.
+    static const char* convert(std::string_view text, double& value) {
         const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (parsed.ec == std::errc::result_out_of_range) {
-            if (!is_tiny(text))
-                refuse(static_cast<std::size_t>(text.data() - text_.data()),
-                       fmt::format("the number {} is outside the range of double", printable(text, 40)));
-            value = 0;
-        }
+        if (parsed.ec == std::errc::result_out_of_range) value = is_tiny(text) ? 0 : std::numeric_limits<double>::infinity();
         return parsed.ptr;
     }
 
@@ -259,7 +266,13 @@ private:
             at_ = begin;
             return loose_number(v, fault);
         }
-        convert(text_.substr(begin, at_ - begin), v.number);
+        const std::string_view text = text_.substr(begin, at_ - begin);
+        convert(text, v.number);
+        if (!shading::finite(v.number)) {
+            v.type = JsonType::number;
+            visitor_.on_loose(
+                {ErrorCode::bad_input, begin, fmt::format("the number {} is outside the range of double", printable(text, 40))});
+        }
         constexpr std::int64_t kMaxExact = std::int64_t{1} << 53;
         std::int64_t whole = 0;
         if (v.type == JsonType::integer)

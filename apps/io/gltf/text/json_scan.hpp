@@ -45,8 +45,9 @@ public:
     /// object ends. A fault, unless it is overridden.
     virtual void on_twin(std::string_view key, std::size_t first, std::size_t next, std::size_t again);
     /// A place that RFC 8259 forbids and that can be read: NaN, Infinity and what C prints for them (a number that is NaN or infinite), a
-    /// number such as +1, .5, 1. or 01, a comma too many, a comment, a control character or half of a surrogate pair in a string, a
-    /// backslash that is no escape sequence. Throws the fault, unless it is overridden: then it is read.
+    /// number beyond double's range (infinite) or such as +1, .5, 1. or 01, True, False and None, a comma too many, a comment, a control
+    /// character or half of a surrogate pair in a string, a backslash that is no escape sequence. Throws the fault, unless it is
+    /// overridden: then it is read.
     virtual void on_loose(const JsonFault& fault) { throw fault; }
 };
 

@@ -48,8 +48,8 @@ struct LoadLimits {
     int max_json_depth = 64;                             ///< objects and arrays inside each other
     std::size_t max_json_tokens = 50'000'000;            ///< names and values
     /// All textures, as the renderer keeps them (10.7 bytes a pixel), broken ones too. Above it, the largest are kept at a half of their
-    /// sides, or less, with a warning, unless strict. Small files get less: 320 MiB and 4,096 bytes for each of their own. Pictures that
-    /// together have more pixels than this are refused.
+    /// sides, or less, with a warning, unless strict. Small files get less: 96 MiB, 256 bytes for each of their own and 2,000 more for each
+    /// beyond the first million. Pictures that together have more pixels than this are refused.
     std::size_t max_texture_bytes = std::size_t{1} << 30;
     int max_texture_side = 16384;                            ///< texels; at most kMaxTextureSide
     std::size_t max_texture_pixels = std::size_t{64} << 20;  ///< one texture
