@@ -1,3 +1,4 @@
+#include "apps/engine/basics/printable.hpp"
 #include "apps/engine/request/values.hpp"
 
 #include "tests/support/catch.hpp"
