@@ -48,6 +48,13 @@ private:
     const halflit_scene& from_;
 };
 
+/// The engine's messages name flags, as the program has them. Here they are names.
+tl::unexpected<Error> told(const Error& error) {
+    std::string message = error.message;
+    for (std::size_t at = 0; (at = message.find("--", at)) != std::string::npos;) message.erase(at, 2);
+    return tl::unexpected<Error>({error.code, std::move(message)});
+}
+
 /// scene: stands for the path.
 Result<engine::Call> call_of(const char* name, const char* given, bool scene) {
     const auto row = engine::find_call(name);
@@ -72,7 +79,7 @@ Result<halflit_answer> answer_of(const char* name, const char* arguments, const 
     if (scene != nullptr) keeper.emplace(*scene);
     for (engine::RenderOptions* const options : call->scenes) options->keeper = keeper ? &*keeper : nullptr;
     auto answer = engine::within_time(call->scenes.front()->timeout_s, call->run);
-    if (!answer) return tl::unexpected<Error>(answer.error());
+    if (!answer) return told(answer.error());
     halflit_answer made{engine::to_text(answer->report, true), {}, std::move(answer->picture), answer->good};
     for (const std::string& note : answer->notes) made.notes.append(note).append("\n");
     return made;
@@ -111,7 +118,9 @@ int32_t halflit_call_check(const char* name, const char* arguments) {
     return guarded(__func__, {{name, "name"}}, [&]() -> Result<void> {
         const auto call = call_of(name, arguments, true);
         if (!call) return tl::unexpected<Error>(call.error());
-        return call->check ? call->check() : Result<void>();
+        const auto checked = call->check ? call->check() : Result<void>();
+        if (!checked) return told(checked.error());
+        return {};
     });
 }
 

@@ -791,7 +791,7 @@ static void test_points_and_lines(void) {
     CHECK(counts.triangles == 0);
     cube.settings.point_size = 0;
     CHECK(draw_cube(NULL, &cube) == 0);
-    CHECK(strstr(halflit_last_error(), "point size") != NULL);
+    CHECK(strstr(halflit_last_error(), "point_size") != NULL);
     free_cube(&cube);
 }
 

@@ -366,7 +366,7 @@ TEST_CASE("mcp: arguments that are wrong give an error that names them", "[cli][
     refused("look", arguments_of("box.stl", {{"size", "big"}}), "size: expected");
     refused("look", arguments_of("box.stl", {{"edges", "som"}}), "edges: expected");
     refused("look", arguments_of("box.stl", {{"perspective", "yes"}}), "perspective: expected true or false");
-    refused("look", arguments_of("box.stl", {{"hidden_edges", "dashed"}}), "did you mean hidden-edges?");
+    refused("look", arguments_of("box.stl", {{"hidden_edgs", "dashed"}}), "did you mean hidden-edges?");
     refused("look", arguments_of("box.stl", {{"max-memory", 64}}), "unknown argument");
     refused("look", {{"model", "box.stl"}}, "look: unknown argument 'model', expected some of path, view");
     refused("look", arguments_of("box.stl", {{"size", {"64", "32"}}}), "size");

@@ -36,9 +36,10 @@ TEST_CASE("values: every sRGB code is decoded as the standard says", "[cli][valu
 TEST_CASE("values: short and long colours agree, and others are refused", "[cli][values]") {
     CHECK(*parse_color("#f80") == *parse_color("#ff8800"));
     CHECK(*parse_color("#ff8800ff") == *parse_color("#ff8800"));
-    CHECK(*parse_color("white") == Vec4f{1, 1, 1, 1});
+    CHECK(*parse_color("#f80c") == *parse_color("#ff8800cc"));
+    CHECK(*parse_color("White") == Vec4f{1, 1, 1, 1});
     CHECK(*parse_color("transparent") == Vec4f{0, 0, 0, 0});
-    for (const char* bad : {"", "#", "#12", "#1234", "#12345", "#1234567", "#ggg", "#-12", "#+12345", "#0x123", "whit", "#ffffff "}) {
+    for (const char* bad : {"", "#", "#12", "#12345", "#1234567", "#ggg", "#-12", "#+12345", "#0x123", "whit", "#ffffff "}) {
         INFO(bad);
         CHECK(!parse_color(bad));
     }

@@ -528,7 +528,7 @@ class Parts(unittest.TestCase):
         mirrored = np.diag([1.0, 1, -1, 1])
         with self.assertRaisesRegex(halflit.UsageError, "mirrors"):
             halflit.Camera(mirrored)
-        with self.assertRaisesRegex(halflit.UsageError, "cannot be combined with azimuth"):
+        with self.assertRaisesRegex(halflit.UsageError, "^camera: cannot be combined with .*azimuth"):
             render(scene, camera=camera, azimuth=3)
         with self.assertRaisesRegex(halflit.UsageError, "^camera: .*the scene has no camera"):
             render(scene, camera=1)
@@ -636,8 +636,8 @@ class Parts(unittest.TestCase):
             ("first_pixel: ", lambda: by_intrinsics(k, 64, turn, (0, 0, 1), "a")),
             *((f"{name}: expected a finite number", lambda name=name: scene.render(8, **{name: nan}))
               for name in ("azimuth", "elevation", "zoom", "fov", "studio_turn")),
-            ("elevation is not from -90 to 90", lambda: scene.render(8, elevation=91)),
-            ("fov is not above 0", lambda: scene.render(8, fov=-1)),
+            ("elevation: expected a number from -90 to 90", lambda: scene.render(8, elevation=91)),
+            ("fov: expected a number from 1 to 170", lambda: scene.render(8, fov=-1)),
             ("view: expected a finite number", lambda: scene.render(8, view=(nan, 0))),
             ("threads is -1", lambda: scene.render(8, threads=-1)),
             ("isa: 'x86'", lambda: scene.render(8, isa="x86")),
@@ -674,7 +674,6 @@ class Parts(unittest.TestCase):
         scene.add_mesh(CORNERS, FACES)
         for call in (
             lambda: scene.instance(2**32),
-            lambda: scene.render(8, samples=2**32 + 4),
             lambda: scene.render(8, memory_limit=-1),
         ):
             with self.assertRaisesRegex(halflit.UsageError, "expected a whole number"):

@@ -401,7 +401,7 @@ TEST_CASE("execution: an error budget with settings whose error has no bound is 
                                       {std::numeric_limits<double>::quiet_NaN(), "nan"},
                                       {std::numeric_limits<double>::infinity(), "inf"}})
         check([&, codes = codes](ShadingSettings& s) { s.max_error_codes = codes; },
-              std::string("max error codes: ") + text + ", expected 0, or a number above 0 to 255");
+              std::string("max_error_codes: expected 0, or a number above 0 to 255, found '") + text + "'");
     // For the command line as for a host: the budget belongs to accuracy exact alone, and reference measures, it has no budget.
     check([](ShadingSettings& s) { s.accuracy = Accuracy::reference; }, accuracy);
 }

@@ -286,7 +286,7 @@ TEST_CASE("soft shadows: their number is checked, and each point that sees caste
         settings.soft_shadow_maps = n;
         const auto report = render(scene, model.camera, settings, {.width = kSize, .height = kSize, .linear = linear.data()});
         REQUIRE_FALSE(report);
-        CHECK(report.error().message.find("soft shadow maps") != std::string::npos);
+        CHECK(report.error().message.find("soft_shadow_maps") != std::string::npos);
     }
     const auto prepared = PreparedScene::make(scene);
     REQUIRE(prepared);

@@ -34,7 +34,7 @@ Result<PixelStories> tell_pixels(const RenderJob& job, std::span<const PixelPlac
 }
 
 Result<PixelStories> explain(RenderOptions options, std::span<const PixelPlace> pixels) {
-    if (pixels.empty()) return fail(ErrorCode::usage, "--pixel: expected X,Y");
+    if (pixels.empty()) return fail(ErrorCode::usage, "explain: expected --pixel X,Y");
     options.may_want_reference = true;  // for the error
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());

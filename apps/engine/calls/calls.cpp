@@ -166,6 +166,7 @@ Result<Answer> run_render(const RenderOptions& options) {
     Answer answer;
     answer.report = report_head("report");
     answer.report["scene"] = job->source.name;
+    answer.report["output"] = "-";  // the answer has the picture
     add_frame(answer.report, *job, *rendered, image);
     if (blank) answer.report["blank"] = true;
     answer.notes.emplace_back(blank ? "FAULT: blank: nothing is seen in the picture" : "No faults: the picture shows the model.");

@@ -43,6 +43,7 @@ Result<ToolAnswer> tool_answer(Answer answer, const std::string& output, OutputF
         if (std::any_of(answer.inputs.begin(), answer.inputs.end(), [&](const auto& input) { return same_file(output, input); }))
             return fail(ErrorCode::io, output + ": the scene needs it, and it is not overwritten");
         if (const auto written = io::write_file(output, *bytes); !written) return tl::unexpected(written.error());
+        if (finished.report.contains("output")) finished.report["output"] = output;
     }
     const char* const mime_type = format == OutputFormat::png ? "image/png" : format == OutputFormat::jpg ? "image/jpeg" : "image/webp";
     finished.picture = {std::move(*bytes), mime_type};

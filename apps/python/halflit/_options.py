@@ -126,7 +126,7 @@ def text_of_setting(value: Any, kind: str, name: str) -> bytes:
     if kind == "bool" and not isinstance(value, str):
         value = "on" if truth(value, name) else "off"
     elif not isinstance(value, str):
-        value = number_text(real(value, name))
+        value = str(value) if kind == "int" else number_text(real(value, name))
     if value == "":
         raise UsageError(f"{name}: expected a value, found nothing")
     return _c.bytes_of(value, name) or b""

@@ -126,7 +126,7 @@ def check_view_of(options: Dict[Any, Any], size: Optional[Tuple[int, int]]) -> N
     import json  # which takes a tenth of halflit's own import
 
     arguments = {name: options[name] for name in WHOLE_SCENE if options.get(name) is not None}
-    for name in ("azimuth", "elevation", "zoom"):
+    for name in ("azimuth", "elevation", "zoom", "fov"):
         if name in arguments:
             arguments[name] = number_text(finite(arguments[name], name))
     if isinstance(arguments.get("view"), (tuple, list)):
