@@ -1,5 +1,5 @@
-#include "apps/engine/basics/printable.hpp"
 #include "apps/engine/request/values.hpp"
+#include "apps/engine/basics/printable.hpp"
 
 #include "tests/support/catch.hpp"
 

@@ -11,8 +11,8 @@
 namespace halflit::engine {
 
 struct PixelStories {
-    Json report;       ///< the keys of docs/schema/explain-1.schema.json
-    std::string text;  ///< for people
+    Json report;                                     ///< the keys of docs/schema/explain-1.schema.json
+    std::string text;                                ///< for people
     std::vector<std::string> warnings{}, choices{};  ///< of explain()
 };
 

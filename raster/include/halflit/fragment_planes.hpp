@@ -27,7 +27,8 @@ namespace halflit {
 
 /// Least and largest depth of a picture.
 struct DepthRange {
-    double least = 0.0, most = 0.0;
+    double least = 0.0;  ///< along the view axis, world units
+    double most = 0.0;   ///< likewise
 };
 /// Depths as 1 to 65535 between the least and the largest of them, and 0 for infinity. Requires: as many codes as depths.
 HALFLIT_API DepthRange make_depth_codes(std::span<const float> depth, std::span<std::uint16_t> codes);

@@ -921,6 +921,7 @@ HALFLIT_C_API const char* halflit_answer_notes(const halflit_answer* answer);
 HALFLIT_C_API int32_t halflit_answer_is_good(const halflit_answer* answer);
 /// The picture: rows of 8-bit RGBA from the top, without gaps; null where the call draws none. width and height may be null.
 HALFLIT_C_API const void* halflit_answer_picture(const halflit_answer* answer, int32_t* width, int32_t* height);
+/// Frees an answer; null is none.
 HALFLIT_C_API void halflit_answer_destroy(halflit_answer* answer);
 
 #ifdef __cplusplus
