@@ -26,7 +26,7 @@ int limit_memory(std::size_t /*bytes*/) { return ENOSYS; }
 
 }  // namespace halflit::platform
 
-namespace halflit::cli {
+namespace halflit::engine {
 
 bool is_file(const std::string& /*path*/) { return false; }
 
@@ -43,4 +43,4 @@ Result<void> settle_cameras(RenderOptions& options) {
     return fail(ErrorCode::usage, "--camera-file: a page reads no file of cameras");
 }
 
-}  // namespace halflit::cli
+}  // namespace halflit::engine
