@@ -317,7 +317,7 @@ class Refused(unittest.TestCase):
             (lambda: halflit.Light(position=3), "position: expected 3 numbers, found 3"),
             (lambda: halflit.Light("point", color=(1, -1, 0)), r"color: expected light from 0 on, found \(1, -1, 0\)"),
             (lambda: halflit.render("demo", "big"), "size: expected whole numbers, found 'big'"),
-            (lambda: halflit.render("demo", 8, elevation=91), "elevation is not from -90 to 90"),
+            (lambda: halflit.render("demo", 8, elevation=91), "elevation: expected a number from -90 to 90"),
             (lambda: halflit.Scene.load(box(), strict="no"), "strict: expected True or False"),
             (lambda: halflit.Scene.load(box(), crease_deg="sharp"), "crease_deg: expected a number"),
             (lambda: halflit.Scene.load(box(), time="1"), "time: expected a number"),

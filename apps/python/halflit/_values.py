@@ -97,7 +97,7 @@ def up_axis(name: str) -> int:
 
 
 def checked_size(size: Any) -> Tuple[int, int]:
-    if hasattr(size, "__index__"):
+    if hasattr(size, "__index__") and not getattr(size, "ndim", 0):
         size = (size, size)
     found = sized(size, "size")
     if len(found) != 2:
