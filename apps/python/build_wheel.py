@@ -191,7 +191,7 @@ def make(library, folder, licences_folder=None):
                 path = os.path.join(folder_of, name)
                 with open(path, "rb") as file:
                     files[os.path.relpath(path, HERE)] = file.read()
-    fonts = os.path.join(ROOT, "apps", "halflit", "fonts")
+    fonts = os.path.join(ROOT, "apps", "engine", "fonts")
     with open(os.path.join(fonts, "dejavu_sans.ttf"), "rb") as file:
         files["halflit/dejavu_sans.ttf"] = file.read()
     with tempfile.TemporaryDirectory() as scratch:

@@ -169,6 +169,7 @@ Result<Answer> run_render(const RenderOptions& options) {
     answer.report["output"] = "-";  // the answer has the picture
     add_frame(answer.report, *job, *rendered, image);
     if (blank) answer.report["blank"] = true;
+    answer.report["encode_ms"] = 0.0;  // nothing is encoded
     answer.notes.emplace_back(blank ? "FAULT: blank: nothing is seen in the picture" : "No faults: the picture shows the model.");
     answer.picture = std::move(image);
     if (job->source.file) answer.inputs = job->source.file->files;

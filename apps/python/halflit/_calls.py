@@ -1,7 +1,6 @@
 """Answers of the program's commands: look, compare, explain, measure, section, certify, info. The engine reads the arguments."""
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import os
 from typing import Any, Dict, List, Optional
@@ -63,19 +62,27 @@ def call(name: str, source: Any = None, /, **arguments: Any) -> Answer:
     command, with underscores for hyphens, and with the values that the program takes: call("look", "part.stl", view=["front", "iso"],
     size=(640, 480), hidden_edges="dashed").
     """
+    if isinstance(source, (str, os.PathLike)):
+        arguments["path"] = os.fspath(source)
+        return _answer(name, arguments, None)
+    if source is None or isinstance(source, Scene):
+        return _answer(name, arguments, source)
+    from ._render import scene_of
+
+    made = scene_of(source, {"load": None}, arguments.pop("up", None))
+    try:
+        return _answer(name, arguments, made)
+    finally:
+        made.close()
+
+
+def _answer(name: str, arguments: Dict[str, Any], scene: Optional[Scene]) -> Answer:
     import json
 
-    scene: Any = None
-    with contextlib.ExitStack() as made:
-        if isinstance(source, (str, os.PathLike)):
-            arguments["path"] = os.fspath(source)
-        elif source is not None:
-            from ._render import scene_of
-
-            scene = source if isinstance(source, Scene) else made.enter_context(scene_of(source, {"load": None}, arguments.pop("up", None)))
-            scene._check_open()
-        text = json.dumps(arguments, default=_plain).encode()
-        return Answer(_c.Handle("call", "answer_destroy", name.encode(), text, None if scene is None else scene._handle))
+    if scene is not None:
+        scene._check_open()
+    text = json.dumps(arguments, default=_plain).encode()
+    return Answer(_c.Handle("call", "answer_destroy", name.encode(), text, None if scene is None else scene._handle))
 
 
 def look(source: Any, **arguments: Any) -> Answer:

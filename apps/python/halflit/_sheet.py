@@ -91,7 +91,7 @@ def font_path() -> str:
     """The program's font: beside this file, or in the tree of the sources."""
     here = os.path.dirname(os.path.abspath(__file__))
     own = os.path.join(here, "dejavu_sans.ttf")
-    return own if os.path.exists(own) else os.path.join(here, "..", "..", "halflit", "fonts", "dejavu_sans.ttf")
+    return own if os.path.exists(own) else os.path.join(here, "..", "..", "engine", "fonts", "dejavu_sans.ttf")
 
 
 def _written(text: str, letters: int, width: int, height: int) -> Union[Array, Any]:
