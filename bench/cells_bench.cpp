@@ -1,5 +1,6 @@
-// Whole frames under many lamps, with an error budget against exact in turn: 64 spheres under 64 lamps, and a floor under 256. 1920 x 1080,
-// one sample, no shadows, one thread. The shortest frame of each counts, planning included; the picture is compared with the reference.
+// Whole frames under many lights, with an error budget against exact in turn: 64 spheres under 64 lights, and a floor under 256. 1920 x
+// 1080, one sample, no shadows, one thread. The shortest frame of each counts, planning included; the picture is compared with the
+// reference.
 //
 //     halflit_cells_bench [FRAMES [ISA]]      7 frames, the widest instruction set
 #include "halflit/renderer.hpp"
@@ -134,8 +135,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     const Subject subjects[] = {
-        spheres("64 spheres, 64 lamps, Lambert", Lobe::lambert()), spheres("64 spheres, 64 lamps, sloan 0.3", Lobe::sloan(0.3f)),
-        floor("floor, 256 lamps, Lambert", Lobe::lambert()), floor("floor, 256 lamps, sloan 0.3", Lobe::sloan(0.3f))};
+        spheres("64 spheres, 64 lights, Lambert", Lobe::lambert()), spheres("64 spheres, 64 lights, sloan 0.3", Lobe::sloan(0.3f)),
+        floor("floor, 256 lights, Lambert", Lobe::lambert()), floor("floor, 256 lights, sloan 0.3", Lobe::sloan(0.3f))};
     std::printf("%-34s %7s %9s %7s %9s %9s %11s\n", "scene", "codes", "ms", "ratio", "bound", "measured", "lights/px");
     for (const Subject& subject : subjects) {
         Renderer renderer;

@@ -1,4 +1,4 @@
-// Time of the shading stage alone, for a floor that fills the screen under eight lamps: at full accuracy and within error
+// Time of the shading stage alone, for a floor that fills the screen under eight lights: at full accuracy and within error
 // budgets, on every instruction set that this processor has. All are measured in turn, in short slices; the shortest slice of each counts.
 //
 //     halflit_eight_lights_bench [SLICES [POWER [ROUGHNESS]]]      400 slices, t^1.3, highlights of exponent 32

@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
                                 {"1,000 objects", thousand_objects()},
                                 {"sphere of 1 M", sphere(1'000'000)},
                                 {"sphere of 4 M", sphere(4'000'000)},
-                                {"64 lamps", lights_scene(64, true)}};
+                                {"64 lights", lights_scene(64, true)}};
     std::printf("%d x %d, ms, the shortest of %d frames\n\n", kWidth, kHeight, frames);
     std::printf("| scene | samples | change | update | ready to draw | maps | tiles | whole |\n|---|---:|---|---:|---:|---:|---:|---:|\n");
     for (const Subject& subject : subjects) next_frames(subject, frames, threads);

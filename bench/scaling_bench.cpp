@@ -1,4 +1,4 @@
-// Time and memory of whole frames over one property at a time: triangles, pixels, lamps, layers, size of textures, threads.
+// Time and memory of whole frames over one property at a time: triangles, pixels, lights, layers, size of textures, threads.
 //
 //     halflit_scaling_bench [AXIS...]      all axes, in three minutes
 //
@@ -76,33 +76,33 @@ int processors() { return static_cast<int>(std::max(1u, std::thread::hardware_co
 
 double pixels_of(Size size) { return static_cast<double>(size.width) * size.height; }
 
-/// A row whose pieces are `layers` layers, or lamps, of all pixels.
+/// A row whose pieces are `layers` layers, or lights, of all pixels.
 Row squares(const Squares& what, double count, double layers, Size size = kUsual) {
     return {[what](float aspect) { return make_squares_scene(what, aspect); }, size, processors(), count, layers * pixels_of(size)};
 }
 
 std::vector<Axis> axes() {
     std::vector<Axis> all;
-    Axis triangles{"triangles", "a sphere, 2 lamps", "triangle", {}};
+    Axis triangles{"triangles", "a sphere, 2 lights", "triangle", {}};
     for (double n = 1e3; n < 2e7; n *= std::sqrt(10.0))
         triangles.rows.push_back(
             {[n](float) { return make_sphere_scene(std::llround(n)); }, kUsual, processors(), std::round(n), std::round(n)});
     all.push_back(triangles);
-    Axis pixels{"pixels", "a textured square, 8 lamps", "pixel", {}};
+    Axis pixels{"pixels", "a textured square, 8 lights", "pixel", {}};
     for (const Size size : {Size{426, 240}, {854, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}})
         pixels.rows.push_back(squares({}, pixels_of(size), 1, size));
     all.push_back(pixels);
-    Axis lamps{"lamps", "a textured square", "pixel and lamp", {}};
+    Axis lamps{"lamps", "a textured square", "pixel and light", {}};
     for (int n = 1; n <= 1024; n *= 4) lamps.rows.push_back(squares({.lamps = n}, n, n));
     all.push_back(lamps);
-    Axis layers{"layers", "textured squares, the farthest first, 8 lamps", "pixel and layer", {}};
+    Axis layers{"layers", "textured squares, the farthest first, 8 lights", "pixel and layer", {}};
     for (int n = 1; n <= 64; n *= 2) layers.rows.push_back(squares({.layers = n}, n, n));
     all.push_back(layers);
     Axis textures{
-        "texels", "a square, 8 lamps, two textures of this many texels on a side, repeated so that texels are equally large", "pixel", {}};
+        "texels", "a square, 8 lights, two textures of this many texels on a side, repeated so that texels are equally large", "pixel", {}};
     for (int n = 16; n <= 8192; n *= 2) textures.rows.push_back(squares({.texture_side = n}, n, 1));
     all.push_back(textures);
-    Axis threads{"threads", "a textured square, 8 lamps", "pixel, time times threads", {}};
+    Axis threads{"threads", "a textured square, 8 lights", "pixel, time times threads", {}};
     for (int n = 1; n <= processors(); n *= 2) {
         threads.rows.push_back(squares({}, n, 1.0 / n));
         threads.rows.back().threads = n;

@@ -18,7 +18,7 @@ struct ShaderSources {
 };
 
 /// Shaders of a scene's one material. What does not change is written as constants: the material, the environment's coefficients and suns.
-/// Lamps and the eye are uniforms. The target must encode sRGB. products: the highlights' power is written as products, where its exponent
+/// Lights and the eye are uniforms. The target must encode sRGB. products: the highlights' power is written as products, where its exponent
 /// is whole.
 [[nodiscard]] ShaderSources shader_sources(const Scene& scene, PeerOutputs outputs, bool products);
 

@@ -85,7 +85,7 @@ void spheres(BenchScene& bench, int lamps) {
     bench.camera = camera_at({0, 0, 6});
 }
 
-/// One of the spheres, under 2 lamps.
+/// One of the spheres, under 2 lights.
 void small(BenchScene& bench) {
     bench.scene.meshes[0] = make_sphere(0.5f, 64, 32);
     generate_tangents(bench.scene.meshes[0], 0);
@@ -167,17 +167,17 @@ int number_after(std::string_view name, std::string_view prefix) {
 }  // namespace
 
 const std::vector<SceneEntry>& scene_entries() {
-    static const std::vector<SceneEntry> entries = {{"spheres-1", "64 textured spheres, 254 k triangles, 1 lamp"},
-                                                    {"spheres-4", "the same, 4 lamps"},
-                                                    {"spheres-16", "the same, 16 lamps"},
-                                                    {"spheres-64", "the same, 64 lamps"},
-                                                    {"dense-1", "a sphere of a million triangles, 2 lamps"},
-                                                    {"dense-4", "a sphere of four million triangles, 2 lamps"},
-                                                    {"fill", "one textured square that fills the picture, 8 lamps"},
+    static const std::vector<SceneEntry> entries = {{"spheres-1", "64 textured spheres, 254 k triangles, 1 light"},
+                                                    {"spheres-4", "the same, 4 lights"},
+                                                    {"spheres-16", "the same, 16 lights"},
+                                                    {"spheres-64", "the same, 64 lights"},
+                                                    {"dense-1", "a sphere of a million triangles, 2 lights"},
+                                                    {"dense-4", "a sphere of four million triangles, 2 lights"},
+                                                    {"fill", "one textured square that fills the picture, 8 lights"},
                                                     {"overdraw", "32 such squares, back to front"},
-                                                    {"boxes", "200,000 small boxes, 2.4 M triangles, 2 lamps"},
-                                                    {"dataset-small", "views of one of the spheres, 2 lamps, with planes"},
-                                                    {"dataset-large", "views of the 64 spheres, 4 lamps, with planes"}};
+                                                    {"boxes", "200,000 small boxes, 2.4 M triangles, 2 lights"},
+                                                    {"dataset-small", "views of one of the spheres, 2 lights, with planes"},
+                                                    {"dataset-large", "views of the 64 spheres, 4 lights, with planes"}};
     return entries;
 }
 

@@ -16,7 +16,7 @@ struct Picture {
     std::vector<std::uint8_t> rgba8;
 };
 
-/// One mesh in world space with one material, lamps, and an environment with its sun.
+/// One mesh in world space with one material, lights, and an environment with its sun.
 struct BenchScene {
     std::string name;
     Scene scene;
@@ -36,7 +36,7 @@ struct SceneEntry {
 /// Makes a scene. `aspect`: the picture's width / height, which full-screen surfaces fill.
 [[nodiscard]] BenchScene make_bench_scene(std::string_view name, float aspect);
 
-/// One sphere that touches the upper and the lower edge of the picture, under 2 lamps; without textures.
+/// One sphere that touches the upper and the lower edge of the picture, under 2 lights; without textures.
 [[nodiscard]] BenchScene make_sphere_scene(std::int64_t triangles);
 
 /// Squares that fill the picture one over another, the farthest first.

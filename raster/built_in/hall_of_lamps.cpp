@@ -64,7 +64,7 @@ Scene lights_scene(int lights, bool ranged) {
     std::vector<Vec3f> pillars;
     for (int row = 0; row < kPillars; ++row)
         for (int column = 0; column < kPillars; ++column) {
-            // Pillars are at every second corner of the squares, so that none stands below a lamp.
+            // Pillars are at every second corner of the squares, so that none stands below a light.
             const float x = 2 * kSquare * static_cast<float>(column - kMiddlePillar),
                         z = 2 * kSquare * static_cast<float>(row - kMiddlePillar);
             pillars.push_back({x, kPillarHalf.y, z});

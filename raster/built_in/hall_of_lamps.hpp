@@ -1,4 +1,4 @@
-// Scene that shows the cost of many lights: a floor with pillars, and lamps over it.
+// Scene that shows the cost of many lights: a floor with pillars, and lights over it.
 #pragma once
 
 #include "halflit/scene.hpp"

@@ -61,14 +61,14 @@ TEST_CASE("glossiness: a metal and a dielectric, given by their colours, come ba
     }
 }
 
-TEST_CASE("glossiness: the metallic value keeps F0 and the matt light of grey surfaces", "[io]") {
-    // Of a grey surface both are numbers, and the equation has one root: F0 = 0.04 (1 - m) + base m, matt = base (1 - m) 0.96.
+TEST_CASE("glossiness: the metallic value keeps F0 and the diffuse light of grey surfaces", "[io]") {
+    // Of a grey surface both are numbers, and the equation has one root: F0 = 0.04 (1 - m) + base m, diffuse = base (1 - m) 0.96.
     for (const double diffuse : {0.05, 0.3, 0.8})
         for (const double specular : {0.04, 0.1, 0.3, 0.6}) {
             GlossySurface s;
             for (int c = 0; c < 3; ++c) s.diffuse[c] = diffuse, s.specular[c] = specular;
             const double matt = diffuse * (1 - specular);
-            double low = 0, high = 1;  // bisection, the base colour taken from the matt light
+            double low = 0, high = 1;  // bisection, the base colour taken from the diffuse light
             for (int i = 0; i < 200; ++i) {
                 const double m = 0.5 * (low + high), base = matt / (0.96 * (1 - m));
                 (0.04 * (1 - m) + base * m < specular ? low : high) = m;

@@ -282,7 +282,7 @@ TEST_CASE("materials: a broken picture is left out with a warning, or refused by
         CHECK(loaded.warnings.at(0).find("drawn without the picture") != std::string::npos);
         const Material& material = loaded.scene.materials.at(0);
         for (std::size_t slot = 0; slot < kTextureSlots; ++slot) CHECK(material.textures[static_cast<TextureSlot>(slot)].texture < 0);
-        CHECK(material.metallic == 0.0f);  // neither a mirror nor a lamp without its map
+        CHECK(material.metallic == 0.0f);  // neither a mirror nor a light without its map
         CHECK(material.emissive == Vec3f{});
     }
     const Bytes unused = with_material("", {broken});

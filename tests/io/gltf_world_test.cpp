@@ -22,7 +22,7 @@ std::string number(double x) {
     return text;
 }
 
-/// A bent sheet of 8 x 8 squares with a camera and a lamp in front of it. positions: unit of the mesh's positions. scale: of its node.
+/// A bent sheet of 8 x 8 squares with a camera and a light in front of it. positions: unit of the mesh's positions. scale: of its node.
 /// offset: of everything, along x, in units of the scene's size.
 Bytes sheet(double positions, double scale, double offset) {
     constexpr int kSquares = 8;

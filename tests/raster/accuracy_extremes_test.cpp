@@ -41,7 +41,7 @@ struct Subject {
         for (Mesh& mesh : scene.meshes)
             for (Vec3f& normal : mesh.normals) normal = normal * length;
     }
-    /// Scales all lengths by `size`, and the lamp's light by its square.
+    /// Scales all lengths by `size`, and the light's intensity by its square.
     void set_size(float size) {
         for (Mesh& mesh : scene.meshes)
             for (Vec3f& position : mesh.positions) position = position * size;
@@ -58,7 +58,7 @@ struct Subject {
     }
 };
 
-/// A ball on a floor under the sun and a lamp, with highlights.
+/// A ball on a floor under the sun and a light, with highlights.
 Subject usual_subject() {
     Subject s;
     s.camera = test::camera_at({1.5f, 2, 4}, {0, -0.2f, 0}, 0.8f, 0.05f);
@@ -119,7 +119,7 @@ const std::vector<Row>& rows() {
         {"a one ulp above 0", kCodes, kRelative, [](Subject& s) { s.set_lobe(Lobe::sloan(kUlpAboveZero)); }},
         {"a one ulp below 1", kCodes, kRelative, [](Subject& s) { s.set_lobe(Lobe::sloan(kUlpBelowOne)); }},
         {"a = 1", kCodes, kRelative, [](Subject& s) { s.set_lobe(Lobe::sloan(1)); }},
-        {"lamp on the floor, in a pixel's middle", kCodes, kRelative,
+        {"light on the floor, in a pixel's middle", kCodes, kRelative,
          [](Subject& s) {
              s.lamp().position_ws = {1.2f, -1, 1.6f};
              s.camera = test::camera_at({1.5f, 2, 4}, s.lamp().position_ws, 0.8f, 0.05f);
@@ -130,15 +130,15 @@ const std::vector<Row>& rows() {
              s.lamp().source_radius = 0.1f;
              s.camera = test::camera_at({1.5f, 2, 4}, s.lamp().position_ws, 0.8f, 0.05f);
          }},
-        {"lamp 1e18 away", kCodes, kRelative,
+        {"light 1e18 away", kCodes, kRelative,
          [](Subject& s) {
              s.set_lamp({-6e17f, 6e17f, 5e17f}, {4e35f, 5e35f, 8e35f});
          }},
-        {"lamp 1e19 away", kCodes, kRelative,
+        {"light 1e19 away", kCodes, kRelative,
          [](Subject& s) {
              s.set_lamp({-6e18f, 6e18f, 5e18f}, {4e37f, 5e37f, 8e37f});
          }},
-        {"lamp 1e20 away", kCodes, kRelative,
+        {"light 1e20 away", kCodes, kRelative,
          [](Subject& s) {
              s.set_lamp({-6e19f, 6e19f, 5e19f}, {2e38f, 2.5e38f, 3e38f});
          }},

@@ -65,7 +65,7 @@ inline Vec3d floor_at(Vec3d foot, int i, int j) {
     return foot + Vec3d{(1 - (j + 0.5) / kSide * 2) * kHalfView, 0, ((i + 0.5) / kSide * 2 - 1) * kHalfView};
 }
 
-/// Counts of the floor around a box of one metre, seen from above. distance: of the lamp from `foot`; 0: directional light.
+/// Counts of the floor around a box of one metre, seen from above. distance: of the light from `foot`; 0: directional light.
 inline ShadowArea shadow_area(ShadowSetup& setup, Vec3d foot, const std::vector<Box>& boxes, Vec3d to_light, double distance) {
     setup.camera = camera_above(foot);
     setup.settings.shadows = ShadowMode::off;

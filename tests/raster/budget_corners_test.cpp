@@ -1,4 +1,4 @@
-// Error budgets in the corners of float32: views opposite a light at grazing angles, and lamps next to surfaces far from the origin.
+// Error budgets in the corners of float32: views opposite a light at grazing angles, and lights next to surfaces far from the origin.
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
 #include "shading/reference/reference.hpp"
@@ -74,7 +74,7 @@ TEST_CASE("error budget: highlights opposite a light at grazing angles keep to t
     CHECK(seen > 20);
 }
 
-TEST_CASE("error budget: lamps next to surfaces far from the origin keep to the bound", "[raster][budget]") {
+TEST_CASE("error budget: lights next to surfaces far from the origin keep to the bound", "[raster][budget]") {
     halflit::test::Random random(1);
     for (int round = 0; round < 150; ++round) {
         const auto origin = static_cast<float>(std::pow(10.0, random.real(4, 6.5)));

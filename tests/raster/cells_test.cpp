@@ -14,7 +14,7 @@ using namespace halflit::raster::test;
 
 namespace {
 
-/// A random scene without shadows, under 4 to 43 lamps about it, with an error budget.
+/// A random scene without shadows, under 4 to 43 lights about it, with an error budget.
 Shot many_lamps(std::uint64_t seed) {
     Shot shot = any_shot(seed);
     Random random(seed);

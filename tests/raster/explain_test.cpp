@@ -79,7 +79,8 @@ TEST_CASE("explain: N.L, lobe and share of a wall under a sun are the closed for
         }
 }
 
-TEST_CASE("explain: light of a lamp falls off with the squared distance, and the brightest share comes first", "[raster][explain]") {
+TEST_CASE("explain: the light of a point light falls off with the squared distance, and the brightest share comes first",
+          "[raster][explain]") {
     Scene scene = wall(clay());
     scene.materials[0].emissive = {0.125f, 0, 0};
     for (const float z : {5.0f, 2.0f}) {
@@ -101,8 +102,8 @@ TEST_CASE("explain: light of a lamp falls off with the squared distance, and the
     CHECK(story.linear[0] == Approx(0.125 + 0.8 / 4 + 0.8 / 25).epsilon(1e-6));
 }
 
-TEST_CASE("explain: a box between a surface and a lamp is named as what hides it", "[raster][explain]") {
-    // From the origin the lamp lies along (0.6, 0, 0.8). The ray enters the box at z = 1.8, after 2.25, and leaves it at z = 2.2,
+TEST_CASE("explain: a box between a surface and a light is named as what hides it", "[raster][explain]") {
+    // From the origin the light lies along (0.6, 0, 0.8). The ray enters the box at z = 1.8, after 2.25, and leaves it at z = 2.2,
     // after 2.75.
     Scene scene = wall(clay());
     Mesh box = make_box({0.2f, 0.2f, 0.2f});

@@ -37,24 +37,24 @@ Outcome draw(const Scene& scene, double codes, int tile_size = 64) {
 
 }  // namespace
 
-TEST_CASE("many lights: with a range, pairs of light and fragment do not grow with lamps beyond the picture", "[raster][lights]") {
-    // On average, a point of the floor lies within the range of pi (3^2 - 0.8^2) / 2^2 = 6.6 lamps.
+TEST_CASE("many lights: with a range, pairs of light and fragment do not grow with lights beyond the picture", "[raster][lights]") {
+    // On average, a point of the floor lies within the range of pi (3^2 - 0.8^2) / 2^2 = 6.6 lights.
     constexpr double kInRange = 6.6;
     const double few = draw(lights_scene(64, true), 0).pairs;
-    INFO("64 lamps: " << few << " pairs a fragment");
+    INFO("64 lights: " << few << " pairs a fragment");
     CHECK(few > 0.8 * kInRange);
     CHECK(few < 2 * kInRange);
     for (const int lights : {256, 1024}) {
         const Scene scene = lights_scene(lights, true);
         const Outcome exact = draw(scene, 0), budget = draw(scene, 0.5);
-        INFO(lights << " lamps: " << exact.pairs << " pairs a fragment, " << budget.pairs << " within half a code");
+        INFO(lights << " lights: " << exact.pairs << " pairs a fragment, " << budget.pairs << " within half a code");
         CHECK(exact.pairs >= few);
-        CHECK(exact.pairs < 1.25 * few);  // with more lamps, the outermost fragments get their full number too
+        CHECK(exact.pairs < 1.25 * few);  // with more lights, the outermost fragments get their full number too
         CHECK(budget.pairs <= exact.pairs);
     }
     CHECK(draw(lights_scene(256, true), 0).pairs == Approx(draw(lights_scene(1024, true), 0).pairs).epsilon(0.02));
 }
 
-TEST_CASE("many lights: lamps beyond the picture add nothing and leaving them out changes no pixel", "[raster][lights]") {
+TEST_CASE("many lights: lights beyond the picture add nothing and leaving them out changes no pixel", "[raster][lights]") {
     CHECK(draw(lights_scene(1024, true), 0).linear == draw(lights_scene(400, true), 0, 16).linear);
 }

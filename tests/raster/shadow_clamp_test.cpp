@@ -46,7 +46,7 @@ void set_local(ShadowSetup& setup, bool spot, Vec3f position, Vec3f direction) {
 }  // namespace
 
 TEST_CASE("shadows: a light sees of a single-sided mesh what a camera sees there", "[raster][shadow]") {
-    // A square between the lamp and the floor. Its front faces up, to the lamp, or down, away from it.
+    // A square between the light and the floor. Its front faces up, to the light, or down, away from it.
     for (const bool spot : {false, true}) {
         for (const bool faces_light : {false, true}) {
             for (const bool double_sided : {false, true}) {
@@ -123,7 +123,7 @@ TEST_CASE("shadows: leaving out faces of a cube that see nothing changes no pixe
         set_local(setup, false, position, {0, -1, 0});
         setup.add(make_plane(1, 2));
         setup.add(make_box({0.2f, 0.2f, 0.2f}), translation({0.1f, 0.3f, 0}));
-        // A box behind the lamp: one view from it does not see them all.
+        // A box behind the light: one view from it does not see them all.
         setup.add(make_box({0.01f, 0.01f, 0.01f}), translation(position + Vec3f{0, 3, 0}));
         look_down(setup);
         const std::vector<float> few_faces = on_all_sets(setup, 64);

@@ -62,7 +62,7 @@ Gap contact_gap(Random& random, Map kind, int size, bool wall) {
     const Vec3d to_light{across * std::cos(azimuth), height, across * std::sin(azimuth)};
     const double distance = kind == Map::cube ? random.real(1.5, 6) : random.real(4, 30);
     if (kind == Map::cube)
-        for (int k = 0; k < 8; ++k)  // on all sides of the lamp
+        for (int k = 0; k < 8; ++k)  // on all sides of the light
             setup.add(make_box({0.01f, 0.01f, 0.01f}),
                       translation(to_float(to_light * distance + Vec3d{k & 1 ? 3.0 : -3.0, k & 2 ? 3.0 : -0.05, k & 4 ? 3.0 : -3.0})));
     Light& light = setup.scene.lights[0];

@@ -1,4 +1,4 @@
-// Shadow maps that fit: the shadow of a box against rays, for lamps far away and wide floors, and planes that face their light.
+// Shadow maps that fit: the shadow of a box against rays, for lights far away and wide floors, and planes that face their light.
 #include "sh/vec3d.hpp"
 #include "tests/raster/box_shadow.hpp"
 #include "tests/raster/shadow_city.hpp"
@@ -11,7 +11,7 @@
 using namespace halflit;
 using namespace halflit::test;
 
-TEST_CASE("shadow fit: the shadow of a box has the area that rays give it, near and far from the lamp, on small and on wide floors",
+TEST_CASE("shadow fit: the shadow of a box has the area that rays give it, near and far from the light, on small and on wide floors",
           "[raster][shadow]") {
     const Vec3d to_light = Vec3d{0.5, 0.7, 0.3} * (1 / std::sqrt(0.83));
     for (const LightType type : {LightType::directional, LightType::point, LightType::spot})
@@ -65,7 +65,7 @@ int darkened_pixels(Random& random, LightType type, bool cube, int size) {
     Vec3d normal = to_square * -1.0 + random_direction(random) * random.real(0, 0.99);
     normal = normal * (1 / length(normal));
     setup.add(make_plane(static_cast<float>(kHalf), random.index(3) + 1), facing(center, normal));
-    // A lamp sees boxes on all sides, or only beside and behind the square.
+    // A light sees boxes on all sides, or only beside and behind the square.
     for (int k = 0; k < 8; ++k) {
         Vec3d at{k & 1 ? 5.0 : -5.0, k & 2 ? 5.0 : -5.0, k & 4 ? 5.0 : -5.0};
         if (type == LightType::directional && dot(at, to_square) < 0) at = at * -1.0;  // not between the light and the square

@@ -185,7 +185,7 @@ TEST_CASE("soft shadows: penumbrae are those of rays to 3,000 points of the ligh
     }
 }
 
-TEST_CASE("soft shadows: points of a lamp project to an even disc from every side", "[raster][soft-shadows]") {
+TEST_CASE("soft shadows: points of a light project to an even disc from every side", "[raster][soft-shadows]") {
     shading::LightPlan light{};
     light.type = LightType::point;
     light.shadow_radius = 2;

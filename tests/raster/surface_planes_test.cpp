@@ -175,7 +175,7 @@ TEST_CASE("surface planes: the albedo is factor times texture times vertex colou
                 material.unlit = unlit;
                 material.alpha_mode = mode;
                 material.base_color = {1, 0.5f, 0.5f, 1};
-                material.metallic = 1;  // the base colour, not the matt part of it
+                material.metallic = 1;  // the base colour, not the diffuse part of it
                 // The left half is masked away.
                 material.textures[TextureSlot::base_color].texture = add_texture(scene, {255, 0, 0, 0, 0, 255, 51, 255}, 2, 1);
                 material.textures[TextureSlot::base_color].sampler = {.mag = TextureFilter::nearest, .min = TextureFilter::nearest};

@@ -486,7 +486,7 @@ NamedScene leaves_scene() {
     waxed.transmission = 0.3f;
     waxed.textures[TextureSlot::occlusion].texture = veins;
     hang(waxed, 0.1f, 0.2f, 0.8f, 0.4f);
-    // A lampshade about the lamp.
+    // A shade about the light.
     Material shade = leaf;
     shade.base_color = {0.8f, 0.75f, 0.6f, 1};
     shade.diffuse_transmission_color = {1, 0.7f, 0.4f};

@@ -151,7 +151,7 @@ TEST_CASE("tone: the background colour keeps its codes under every curve, beside
 }
 
 TEST_CASE("tone: the mean of samples is taken of what a display shows", "[raster][tone]") {
-    // A lamp of fifty times white beside a dark grey wall, both in front of the camera and without perspective.
+    // A light of fifty times white beside a dark grey wall, both in front of the camera and without perspective.
     Scene scene;
     add_square(scene, -2, 0.0037f, 0, {50, 40, 10, 1});
     add_square(scene, 0.0037f, 2, 0, {0.02f, 0.02f, 0.02f, 1});
@@ -165,7 +165,7 @@ TEST_CASE("tone: the mean of samples is taken of what a display shows", "[raster
             int mixed = 0;
             double worst = 0;
             for (std::size_t i = 0; i < d.codes.size(); i += 4) {
-                const double share = (static_cast<double>(d.linear[i]) - 0.02) / 49.98;  // of samples that show the lamp
+                const double share = (static_cast<double>(d.linear[i]) - 0.02) / 49.98;  // of samples that show the light
                 mixed += share > 0.01 && share < 0.99;
                 const Vec3d shown = lamp * share + wall * (1 - share);
                 const std::array<double, 3> want{reference::srgb_code(shown.x), reference::srgb_code(shown.y),

@@ -174,7 +174,7 @@ TEST_CASE("transmission: glass casts no shadow", "[raster][blend][shadow]") {
         return double{picture.linear[static_cast<std::size_t>(4 * (16 * 32 + 1))]};
     };
     CHECK(floor_behind(1) == Approx(1.0));      // lit floor, seen through clear glass
-    CHECK(floor_behind(0.5f) == Approx(1.0));   // half the floor, half the glass's own matt light
+    CHECK(floor_behind(0.5f) == Approx(1.0));   // half the floor, half the glass's own diffuse light
     CHECK(floor_behind(0.01f) == Approx(1.0));  // nearly nothing passes, and the glass itself is lit
 }
 

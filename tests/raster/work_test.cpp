@@ -196,7 +196,7 @@ TEST_CASE("work: a light whose range ends before the picture does is left out of
     Light& lamp = square.add_light(LightType::point);
     lamp.position_ws = {-0.75f, 0.75f, 0.1f};
     lamp.range = 0.2f;
-    square.settings.execution.tile_size = 16;  // 16 tiles, each 0.5 wide: the lamp stands in the middle of the first
+    square.settings.execution.tile_size = 16;  // 16 tiles, each 0.5 wide: the light stands in the middle of the first
     const WorkCounts work = square.work();
     CHECK(work.lanes(kStageLights) == kPixels);
     CHECK(pairs(work, LightType::point) > 0);

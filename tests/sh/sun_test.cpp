@@ -101,7 +101,7 @@ TEST_CASE("sun: the bound falls wherever a sun is taken out", "[sh][sun]") {
         }
 }
 
-TEST_CASE("sun: a soft sky has no sun, two lamps are two suns", "[sh][sun]") {
+TEST_CASE("sun: a soft sky has no sun, two lights are two suns", "[sh][sun]") {
     const Sky soft = sky_with_sun({0, 1, 0}, 2, {});
     const SunExtraction none = extract_suns(soft.view(), Projection(soft.view()));
     CHECK(none.suns.empty());

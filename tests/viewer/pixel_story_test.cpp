@@ -107,7 +107,7 @@ TEST_CASE("pixel story: a light that a body hides gives nothing", "[viewer]") {
     CHECK(seen > hidden);
 }
 
-TEST_CASE("pixel story: of many lamps the nearest are told, and a background has no triangle", "[viewer]") {
+TEST_CASE("pixel story: of many lights the nearest are told, and a background has no triangle", "[viewer]") {
     OpenedJob opened = open_job("lights:200:endless", {});
     const PixelStory story = story_of(opened, 32, 40);
     CHECK(story.shares.size() == kMostShares);
