@@ -94,9 +94,9 @@ function(halflit_show_names target script)
 endfunction()
 
 # Static: halflit::NAME is the last of its layers. Shared: a library lib<OUTPUT>.so of all its layers' objects, of which only the names that
-# cmake/exported.map lists are visible.
+# NAMES lists are visible (default: cmake/exported.map).
 function(halflit_component name output)
-    cmake_parse_arguments(arg "" "" "LAYERS;NEEDS;PRIVATE" ${ARGN})
+    cmake_parse_arguments(arg "" "" "LAYERS;NEEDS;PRIVATE;NAMES" ${ARGN})
     list(GET arg_LAYERS -1 last)
     if(NOT HALFLIT_SHARED)
         add_library(halflit::${name} ALIAS halflit_${last})
@@ -119,7 +119,10 @@ function(halflit_component name output)
         OUTPUT_NAME ${output} LINKER_LANGUAGE CXX EXPORT_NAME ${name}
         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
         INSTALL_RPATH "${HALFLIT_ORIGIN}")
-    halflit_show_names(${target} ${PROJECT_SOURCE_DIR}/cmake/exported.map)
+    if(NOT arg_NAMES)
+        set(arg_NAMES ${PROJECT_SOURCE_DIR}/cmake/exported.map)
+    endif()
+    halflit_show_names(${target} ${arg_NAMES})
     if(NOT APPLE)
         target_link_options(${target} PRIVATE -Wl,--no-undefined)
     endif()

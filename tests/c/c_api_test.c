@@ -1846,6 +1846,12 @@ static void test_calls(void) {
     CHECK_FAILS(halflit_call("look", "{}", NULL, &answer), HALFLIT_ERROR_USAGE, "'path'");
     CHECK_FAILS(halflit_call(NULL, "{}", scene, &answer), HALFLIT_ERROR_USAGE, "name is null");
     CHECK_OK(halflit_call_check("render", "{\"azimuth\": 20}"));
+    CHECK_OK(halflit_call_check("render", "{\"path\": \"there_is_none.stl\", \"azimuth\": 20}"));
+    CHECK_OK(halflit_call_check("compare", "{\"a\": \"x.stl\", \"b\": \"y.stl\", \"max\": 2}"));
+    CHECK_FAILS(halflit_call_check("compare", "{\"a\": \"x.stl\"}"), HALFLIT_ERROR_USAGE, "'b'");
+    CHECK_FAILS(halflit_call("compare", "{\"a\": \"x.stl\", \"b\": \"y.stl\"}", scene, &answer), HALFLIT_ERROR_USAGE,
+                "either a scene or the path");
+    CHECK_FAILS(halflit_call("measure", "{\"path\": \"a--b --c.stl\"}", NULL, &answer), HALFLIT_ERROR_IO, "a--b --c.stl");
     CHECK_FAILS(halflit_call_check("render", "{\"azimuth\": 20, \"camera\": 0}"), HALFLIT_ERROR_USAGE, "cannot be combined");
     halflit_answer_destroy(NULL);
     halflit_scene_destroy(scene);

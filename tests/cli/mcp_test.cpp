@@ -371,6 +371,9 @@ TEST_CASE("mcp: arguments that are wrong give an error that names them", "[cli][
     refused("look", {{"model", "box.stl"}}, "look: unknown argument 'model', expected some of path, view");
     refused("look", arguments_of("box.stl", {{"size", {"64", "32"}}}), "size");
     refused("render", arguments_of("box.stl", {{"view", "front,top"}}), "expected one view");
+    refused("render", arguments_of("box.stl", {{"output", std::string("a.png\0.jpg", 10)}}), "output: expected text without zero bytes");
+    refused("render", arguments_of("box.stl", {{"output", ""}}), "output: expected a value");
+    refused("measure", arguments_of("box.stl", {{"output", "a.png"}}), "unknown argument 'output'");
     refused("section", arguments_of("box.stl"), "section");
     refused("explain", arguments_of("box.stl"), "pixel");
     write_contents(models.folder.file("broken.gltf"), "{\"asset\": ");

@@ -24,7 +24,7 @@ foreach(library IN LISTS libraries)
     string(REGEX MATCHALL "[^\n]+" lines "${output}")
     foreach(line IN LISTS lines)
         if(NOT line MATCHES "^[0-9a-f]+ [TDBRVW] (halflit_[a-z0-9_]+|halflit::.*)$" OR
-           line MATCHES "halflit::(sh|shading|raster|io|c|cli)::")
+           line MATCHES "halflit::(sh|shading|raster|io|engine|film|c|cli)::")
             message(FATAL_ERROR "${library} shows ${line}")
         endif()
     endforeach()

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -18,15 +19,16 @@
 
 namespace halflit::engine {
 
-/// Forms of flags whose value is a path: of a model or the name of a built-in scene, and of another file.
+/// Forms of flags whose value is a path: of a model or the name of a built-in scene, of another file, of a picture that is written.
 inline constexpr const char* kModelForm = "MODEL";
 inline constexpr const char* kFileForm = "FILE";
+inline constexpr const char* kPictureForm = "PICTURE";
 
 struct Answer {
     std::vector<std::string> notes;     ///< lines for people: faults first
     Json report;                        ///< an object
     std::optional<Image> picture{};     ///< 8-bit codes
-    std::vector<std::string> inputs{};  ///< files that were read besides the models that were named
+    std::vector<std::string> inputs{};  ///< names of the models, and files that they refer to
     bool good = true;                   ///< false: a negative result, for which the program's exit code is 1
 };
 
@@ -51,16 +53,17 @@ struct CallRow {
 /// Fails (usage) for an unknown name, with one that may have been meant.
 [[nodiscard]] Result<const CallRow*> find_call(std::string_view name);
 
-/// The path that is read for one that was given.
-using ResolvePath = std::function<Result<std::string>(const std::string& path)>;
+enum class PathUse : std::uint8_t { read, write };
+/// The path that is used for one that was given.
+using ResolvePath = std::function<Result<std::string>(const std::string& path, PathUse use)>;
 
 /// Reads arguments by the call's flags: "hidden-edges" and "hidden_edges" are --hidden-edges. Numbers and true for a switch are taken as
 /// their texts, a list of numbers as a text with commas, and a list for a flag that may be repeated. Fails (usage) with the argument's
 /// name.
 [[nodiscard]] Result<void> read_arguments(const CallRow& row, const Call& call, const nlohmann::json& arguments,
-                                          const ResolvePath& to_read);
+                                          const ResolvePath& resolve);
 
-/// The JSON schema of the arguments in CallRow::shown.
+/// The JSON schema of the arguments in CallRow::shown, as far as the call has their flags.
 [[nodiscard]] Json arguments_schema(const CallRow& row, const Call& call);
 
 }  // namespace halflit::engine

@@ -39,7 +39,7 @@ Json type_of(const Flag& flag) {
     return {{"type", number ? "number" : "string"}};
 }
 
-/// The first sentences of a help, as many as stay short: an agent pays for each word of each row.
+/// The first sentences of a help, as many as stay short: an agent pays for each word of each tool.
 std::string brief(const std::string& help) {
     constexpr std::size_t kMostBytes = 120;
     std::size_t end = help.find(". ");
@@ -83,21 +83,22 @@ Result<std::string> text_of_value(const Flag& flag, const Value& value) {
                                       ", found a value of type " + value.type_name());
 }
 
-Result<void> read_text_of(const Flag& flag, std::string text, const ResolvePath& to_read) {
+Result<void> read_text_of(const Flag& flag, std::string text, const ResolvePath& resolve) {
     const std::vector<std::string> words = words_of(flag.form, '|');
     const auto named = [&](const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); };
     if (text.empty() && !flag.form.empty()) return fail(ErrorCode::usage, "expected a value, found nothing");
     if (text.find('\0') != std::string::npos) return fail(ErrorCode::usage, "expected text without zero bytes");
     const bool built_in = named(kModelForm) && is_built_in_name(text);
-    if ((named(kModelForm) || named(kFileForm)) && !named(text) && !built_in) {
-        auto path = to_read(text);
+    const bool reads = named(kModelForm) || named(kFileForm), writes = named(kPictureForm);
+    if ((reads || writes) && !named(text) && !built_in) {
+        auto path = resolve(text, reads ? PathUse::read : PathUse::write);
         if (!path) return tl::unexpected(path.error());
         text = std::move(*path);
     }
     return flag.read(text);
 }
 
-Result<void> read_argument(const Flag& flag, const Value& value, const ResolvePath& to_read) {
+Result<void> read_argument(const Flag& flag, const Value& value, const ResolvePath& resolve) {
     constexpr std::size_t kMostValues = 1000;
     if (value.is_null()) return {};
     if (flag.form.empty()) {
@@ -110,13 +111,13 @@ Result<void> read_argument(const Flag& flag, const Value& value, const ResolvePa
         for (const Value& one : value) {
             auto text = text_of_value(flag, one);
             if (!text) return tl::unexpected(text.error());
-            if (const auto read = read_text_of(flag, std::move(*text), to_read); !read) return read;
+            if (const auto read = read_text_of(flag, std::move(*text), resolve); !read) return read;
         }
         return {};
     }
     auto text = text_of_value(flag, value);
     if (!text) return tl::unexpected(text.error());
-    return read_text_of(flag, std::move(*text), to_read);
+    return read_text_of(flag, std::move(*text), resolve);
 }
 
 }  // namespace
@@ -139,7 +140,7 @@ Json arguments_schema(const CallRow& row, const Call& call) {
     return {{"type", "object"}, {"properties", std::move(properties)}, {"required", row.required}};
 }
 
-Result<void> read_arguments(const CallRow& row, const Call& call, const Value& arguments, const ResolvePath& to_read) {
+Result<void> read_arguments(const CallRow& row, const Call& call, const Value& arguments, const ResolvePath& resolve) {
     for (const auto& [name, value] : arguments.items()) {
         const Flag* const flag = find_flag(call, name);
         if (flag == nullptr) {
@@ -147,11 +148,12 @@ Result<void> read_arguments(const CallRow& row, const Call& call, const Value& a
             for (const FlagGroup& group : call.groups)
                 for (const Flag& one : group.flags) names.push_back(argument_of(one));
             const std::string hint = did_you_mean(name, names);
-            const std::vector<std::string> shown(row.shown.begin(), row.shown.end());
+            std::vector<std::string> shown(row.shown.begin(), row.shown.end());
+            std::erase_if(shown, [&](const std::string& word) { return find_flag(call, word) == nullptr; });
             return fail(ErrorCode::usage, row.name + ": unknown argument '" + name + "'" +
                                               (hint.empty() ? ", expected some of " + joined(shown, ", ") : hint));
         }
-        if (const auto read = read_argument(*flag, value, to_read); !read)
+        if (const auto read = read_argument(*flag, value, resolve); !read)
             return fail(read.error().code, name + ": " + read.error().message);
     }
     for (const std::string_view name : row.required)

@@ -92,6 +92,7 @@ Result<Answer> run_look(const LookCall& call) {
     auto result = look(call);
     if (!result) return tl::unexpected(result.error());
     Answer answer{notes_of(*result), std::move(result->report), std::move(result->sheet), std::move(result->inputs), result->good};
+    answer.inputs.push_back(call.scene);
     if (const auto sections = answer.report.find("sections"); sections != answer.report.end())
         for (const Json& cut : *sections) answer.notes.push_back(section_note(call, cut));
     return answer;
@@ -173,6 +174,7 @@ Result<Answer> run_render(const RenderOptions& options) {
     answer.notes.emplace_back(blank ? "FAULT: blank: nothing is seen in the picture" : "No faults: the picture shows the model.");
     answer.picture = std::move(image);
     if (job->source.file) answer.inputs = job->source.file->files;
+    answer.inputs.push_back(options.scene);
     answer.good = !blank;
     return answer;
 }
@@ -190,7 +192,8 @@ Result<Answer> run_compare(const CompareOptions& call) {
     if (!comparison) return tl::unexpected(comparison.error());
     auto sheet = comparison_sheet(*comparison);
     if (!sheet) return tl::unexpected(sheet.error());
-    return Answer{{comparison_text(*comparison)}, comparison_json(*comparison), std::move(*sheet), {}, !comparison->differs()};
+    return Answer{
+        {comparison_text(*comparison)}, comparison_json(*comparison), std::move(*sheet), {call.a, call.b}, !comparison->differs()};
 }
 
 Call compare_call() {
@@ -243,7 +246,7 @@ std::span<const CallRow> all_calls() {
          "Look at a 3D model: labelled views on one sheet with dimensions, and a report of what each view shows of each part. Begin here "
          "after making or changing a model. Lines that begin with FAULT come first: a view with a fault (blank, cropped, cut, inside, "
          "tiny) must not be relied on. Takes all flags of `halflit look` by their names",
-         {"path", "view", "section", "edges", "hidden-edges", "size", "perspective", "projection", "certify", "up"},
+         {"path", "view", "section", "edges", "hidden-edges", "size", "perspective", "projection", "certify", "up", "output"},
          {"path"},
          true,
          "look",
@@ -253,7 +256,7 @@ std::span<const CallRow> all_calls() {
          "the "
          "picture by their names",
          {"path", "view", "azimuth", "elevation", "zoom", "fov", "camera", "camera-position", "camera-target", "size", "samples",
-          "background", "light", "env", "ground", "edges", "section", "up"},
+          "background", "light", "env", "ground", "edges", "section", "up", "output"},
          {"path"},
          true,
          "render",
@@ -267,7 +270,7 @@ std::span<const CallRow> all_calls() {
          scene_call<run_measure>},
         {"section",
          "Cut a 3D model by planes: the areas of the cuts, and a sheet of views of what is left",
-         {"path", "section", "section-hatch", "view", "edges", "size", "perspective", "up"},
+         {"path", "section", "section-hatch", "view", "edges", "size", "perspective", "up", "output"},
          {"path", "section"},
          true,
          "section",
@@ -275,7 +278,7 @@ std::span<const CallRow> all_calls() {
         {"compare",
          "Compare two versions of a 3D model: pictures of both by one camera with what changed, parts, measures, and the distance of the "
          "surfaces with its bound",
-         {"a", "b", "view", "max", "size", "up"},
+         {"a", "b", "view", "max", "size", "up", "output"},
          {"a", "b"},
          true,
          "compare",

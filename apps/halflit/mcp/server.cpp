@@ -56,17 +56,17 @@ public:
 
     [[nodiscard]] Json list() const override {
         Json list = Json::array();
-        for (const Tool& tool : tools()) list.push_back(tool_json(tool));
+        for (const CallRow* const tool : all_tools()) list.push_back(tool_json(*tool));
         return list;
     }
     [[nodiscard]] std::optional<std::string> unknown(const std::string& name) const override {
         std::vector<std::string> names;
-        for (const Tool& tool : tools()) names.push_back(tool.row->tool);
+        for (const CallRow* const tool : all_tools()) names.push_back(tool->tool);
         return std::find(names.begin(), names.end(), name) != names.end() ? std::nullopt : std::optional(did_you_mean(name, names));
     }
     [[nodiscard]] std::optional<Json> call(const nlohmann::json& id, const std::string& name, const nlohmann::json& arguments) override {
-        const auto all = tools();
-        const Tool& tool = *std::find_if(all.begin(), all.end(), [&](const Tool& one) { return one.row->tool == name; });
+        const auto tools = all_tools();
+        const CallRow& tool = **std::find_if(tools.begin(), tools.end(), [&](const CallRow* one) { return one->tool == name; });
         queue_.begin_call(id);
         Json result;
         try {
@@ -84,22 +84,15 @@ public:
     [[nodiscard]] std::string instructions() const override { return kInstructions; }
 
 private:
-    Result<ToolAnswer> run(const Tool& tool, const nlohmann::json& arguments) {
-        const Call call = tool.row->make();
+    Result<ToolAnswer> run(const CallRow& tool, const nlohmann::json& arguments) {
         std::string output;
-        nlohmann::json of_call = arguments;
-        if (const auto given = of_call.find("output"); given != of_call.end() && tool.writes) {
-            if (!given->is_string()) return fail(ErrorCode::usage, "output: expected the name of a file");
-            auto path = folder_.to_write(given->get<std::string>());
-            if (!path) return fail(path.error().code, "output: " + path.error().message);
-            output = std::move(*path);
-            of_call.erase("output");
-        }
+        const Call call = make_call(tool, output);
+        const auto resolve = [this](const std::string& path, PathUse use) {
+            return use == PathUse::read ? folder_.to_read(path) : folder_.to_write(path);
+        };
+        if (const auto read = read_arguments(tool, call, arguments, resolve); !read) return tl::unexpected(read.error());
         const auto format = format_of_output(output);
         if (!format) return tl::unexpected(format.error());
-        if (const auto read = read_arguments(*tool.row, call, of_call, [&](const std::string& path) { return folder_.to_read(path); });
-            !read)
-            return tl::unexpected(read.error());
         for (RenderOptions* const scene : call.scenes) {
             scene->keeper = &kept_;
             scene->timeout_s = scene->timeout_s > 0.0 ? std::min(scene->timeout_s, options_.timeout_s) : options_.timeout_s;
@@ -107,14 +100,12 @@ private:
             scene->execution.cancelled = [this] { return queue_.cancelled(); };
         }
         io::begin_file_set();
-        return within_memory(*call.scenes.front(), [&]() -> Result<ToolAnswer> {
-            auto answer = within_time(options_.timeout_s, call.run);
+        const auto answered = [&]() -> Result<ToolAnswer> {
+            auto answer = call.run();
             if (!answer) return tl::unexpected(answer.error());
-            for (const char* model : {"path", "a", "b"})
-                if (const auto given = arguments.find(model); given != arguments.end() && given->is_string())
-                    if (const auto path = folder_.to_read(given->get<std::string>())) answer->inputs.push_back(*path);
             return tool_answer(std::move(*answer), output, *format);
-        });
+        };
+        return within_memory(*call.scenes.front(), [&] { return within_time(options_.timeout_s, answered); });
     }
 
     const McpOptions& options_;
@@ -127,7 +118,7 @@ private:
 
 std::vector<NamedHelp> tool_helps() {
     std::vector<NamedHelp> helps;
-    for (const Tool& tool : tools()) helps.push_back({tool.row->tool, tool.row->help});
+    for (const CallRow* const tool : all_tools()) helps.push_back({tool->tool, tool->help});
     return helps;
 }
 

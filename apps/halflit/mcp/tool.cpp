@@ -8,22 +8,28 @@
 
 namespace halflit::cli {
 
-std::vector<Tool> tools() {
-    std::vector<Tool> tools;
+std::vector<const CallRow*> all_tools() {
+    std::vector<const CallRow*> tools;
     for (const CallRow& row : all_calls())
-        if (!row.tool.empty()) tools.push_back({&row, row.has_picture});
+        if (!row.tool.empty()) tools.push_back(&row);
     return tools;
 }
 
-Json tool_json(const Tool& tool) {
-    Json schema = arguments_schema(*tool.row, tool.row->make());
-    if (tool.writes)
-        schema["properties"]["output"] = {{"type", "string"},
-                                          {"description", "Also write the picture: a .png, .jpg or .webp file below the server's folder"}};
-    return {{"name", tool.row->tool},
-            {"description", tool.row->help},
-            {"inputSchema", std::move(schema)},
-            {"annotations", {{"readOnlyHint", !tool.writes}, {"openWorldHint", false}}}};
+Call make_call(const CallRow& tool, std::string& output) {
+    Call call = tool.make();
+    if (tool.has_picture)
+        call.groups.front().flags.push_back({"--output", kPictureForm,
+                                             "Also write the picture: a .png, .jpg or .webp file below the server's folder",
+                                             engine::read_text(output)});
+    return call;
+}
+
+Json tool_json(const CallRow& tool) {
+    std::string output;
+    return {{"name", tool.tool},
+            {"description", tool.help},
+            {"inputSchema", arguments_schema(tool, make_call(tool, output))},
+            {"annotations", {{"readOnlyHint", !tool.has_picture}, {"openWorldHint", false}}}};
 }
 
 Result<OutputFormat> format_of_output(const std::string& output) {

@@ -10,24 +10,25 @@
 
 namespace halflit::cli {
 
-struct Tool {
-    const CallRow* row;   ///< CallRow::tool is its name
-    bool writes = false;  ///< it has a picture, and takes `output`
+struct ToolPicture {
+    std::vector<std::uint8_t> bytes;  ///< of the file; empty: none
+    std::string mime_type;
 };
 
 struct ToolAnswer {
     std::vector<std::string> notes;  ///< lines before the report: faults first
     Json report;                     ///< an object
-    struct Picture {
-        std::vector<std::uint8_t> bytes;  ///< of the file; empty: none
-        std::string mime_type;
-    } picture{};
+    ToolPicture picture{};
 };
 
-[[nodiscard]] std::vector<Tool> tools();
+/// The calls that are tools; CallRow::tool is the tool's name.
+[[nodiscard]] std::vector<const CallRow*> all_tools();
+
+/// A call of the tool with defaults. Where it draws a picture, it has the flag --output, whose path goes to `output`.
+[[nodiscard]] Call make_call(const CallRow& tool, std::string& output);
 
 /// {"name", "description", "inputSchema", "annotations"}
-[[nodiscard]] Json tool_json(const Tool& tool);
+[[nodiscard]] Json tool_json(const CallRow& tool);
 
 /// PNG for no name. Fails (usage) for a format that agents do not see.
 [[nodiscard]] Result<OutputFormat> format_of_output(const std::string& output);

@@ -11,10 +11,10 @@ from ._camera import Camera
 from ._color import color
 from ._errors import UsageError
 from ._lazy import np
-from ._options import VIEW, WHOLE_SCENE, check_names, number_text
+from ._options import VIEW, WHOLE_SCENE, check_names
 from ._record import chosen
 from ._values import checked_size, finite, listed, real, shown, sized
-from ._views import has_parallel_rays, margins, views_of
+from ._views import check_view_of, has_parallel_rays, margins, views_of
 
 
 class Setup:
@@ -119,23 +119,6 @@ def request_of(scene: Any, size: Optional[Tuple[int, int]], options: Dict[Any, A
     struct.exposure = exposure or 0.0
     light_of(scene, options, struct)
     return Request(struct, camera, scene_camera)
-
-
-def check_view_of(options: Dict[Any, Any], size: Optional[Tuple[int, int]]) -> None:
-    """Fails as the program does for the keywords of a view."""
-    import json  # which takes a tenth of halflit's own import
-
-    arguments = {name: options[name] for name in WHOLE_SCENE if options.get(name) is not None}
-    for name in ("azimuth", "elevation", "zoom", "fov"):
-        if name in arguments:
-            arguments[name] = number_text(finite(arguments[name], name))
-    if isinstance(arguments.get("view"), (tuple, list)):
-        arguments["view"] = ",".join(number_text(finite(angle, "view")) for angle in arguments["view"])
-    if options.get("camera") is not None:
-        arguments["camera"] = options["camera"] if isinstance(options["camera"], (str, int)) else 0
-    if size is not None:
-        arguments["size"] = f"{size[0]}x{size[1]}"
-    _c.call("call_check", b"render", json.dumps(arguments, default=shown).encode())
 
 
 def light_of(scene: Any, options: Dict[Any, Any], struct: Any) -> None:

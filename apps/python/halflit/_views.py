@@ -2,15 +2,39 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from . import _c
 from ._camera import Camera
 from ._errors import UsageError
+from ._options import WHOLE_SCENE, number_text
 from ._values import finite, real, shown, truth
 
 #: Pixels of a picture without a size.
 USUAL_SIZE = (1280, 720)
+
+
+@functools.lru_cache(64)
+def _check(arguments: str) -> None:
+    _c.call("call_check", b"render", arguments.encode())
+
+
+def check_view_of(options: Dict[Any, Any], size: Optional[Tuple[int, int]]) -> None:
+    """Fails as the program does for the keywords of a view."""
+    import json  # which takes a tenth of halflit's own import
+
+    arguments = {name: options[name] for name in WHOLE_SCENE if options.get(name) is not None}
+    for name in ("azimuth", "elevation", "zoom", "fov"):
+        if name in arguments:
+            arguments[name] = number_text(finite(arguments[name], name))
+    if isinstance(arguments.get("view"), (tuple, list)):
+        arguments["view"] = ",".join(number_text(finite(angle, "view")) for angle in arguments["view"])
+    if options.get("camera") is not None:
+        arguments["camera"] = options["camera"] if isinstance(options["camera"], (str, int)) else 0
+    if size is not None:
+        arguments["size"] = f"{size[0]}x{size[1]}"
+    _check(json.dumps(arguments, default=shown))
 
 
 def margins(fit: Any, size: Optional[Tuple[int, int]]) -> Tuple[float, float]:
@@ -18,9 +42,6 @@ def margins(fit: Any, size: Optional[Tuple[int, int]]) -> Tuple[float, float]:
     width, height = size or USUAL_SIZE
     if not 0 <= real(fit, "fit") < 1e6:
         raise UsageError(f"fit: expected a margin in pixels, found {shown(fit)}")
-    most = int(0.45 * min(width, height))
-    if fit > most:
-        raise UsageError(f"fit: expected at most {most} pixels, 45 % of the picture's shorter side, found {fit}")
     return 2 * fit / width, 2 * fit / height
 
 
@@ -51,6 +72,7 @@ def view_struct(scene: Any, view: Any, size: Optional[Tuple[int, int]], options:
 
 def views_of(scene: Any, views: Sequence[Any], size: Optional[Tuple[int, int]], options: Dict[str, Any]) -> List[Camera]:
     """Cameras of one distance and scale."""
+    check_view_of(options, size)
     width, height = size or USUAL_SIZE
     structs = [view_struct(scene, view, size, options) for view in views]
     view_type: Any = type(structs[0])

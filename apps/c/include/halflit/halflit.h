@@ -911,7 +911,8 @@ typedef struct halflit_answer halflit_answer;
 /// {"path": "model.glb", "view": ["front", "iso"], "size": "640x480"}. Each name and value means what it means to the program.
 /// scene: null, or the scene that is drawn in place of the file that `path` names. It is copied.
 HALFLIT_C_API int32_t halflit_call(const char* name, const char* arguments, const halflit_scene* scene, halflit_answer** answer);
-/// Fails as the call would before it loads a scene: for unknown names, wrong values, and what excludes each other. `path` may be left out.
+/// Fails as the call would before it loads a scene: for unknown names, wrong values, and what excludes each other. `path` may be left
+/// out. No file is read.
 HALFLIT_C_API int32_t halflit_call_check(const char* name, const char* arguments);
 /// The report, a JSON object as docs/report.md has it. It is valid as long as the answer, as all that follows.
 HALFLIT_C_API const char* halflit_answer_report(const halflit_answer* answer);
