@@ -72,7 +72,7 @@ int parse_and_run(int argc, char** argv) {
     }
     const std::vector<Command> commands = all_commands();
     std::vector<std::string> arguments = platform::arguments(argc, argv);
-    if (arguments.empty() && platform::is_terminal(platform::Stream::output)) return print(program_help(commands, help_width()));
+    if (arguments.empty() && platform::is_terminal(platform::Stream::output)) return print(program_help(commands, false, help_width()));
     if (means_render(commands, arguments)) arguments.insert(arguments.begin(), commands[0].name);
     const auto line = parse_command_line(commands, std::move(arguments));
     if (!line) {
@@ -96,8 +96,8 @@ int parse_and_run(int argc, char** argv) {
         case ParsedLine::Wanted::help_all:
             break;
     }
-    if (line->command == nullptr) return print(program_help(commands, help_width()));
-    return print(command_help(*line->command, line->wanted == ParsedLine::Wanted::help_all, help_width()));
+    const bool all = line->wanted == ParsedLine::Wanted::help_all;
+    return print(line->command == nullptr ? program_help(commands, all, help_width()) : command_help(*line->command, all, help_width()));
 }
 
 /// Memory for the end of a program that has no other: the first allocation that fails frees it and tries again.

@@ -85,15 +85,21 @@ Command trade_command() {
         {"Comparison",
          {{"-o,--output", "DIR", "Folder for trade.json and trade.md, a table; created if missing (default trade)",
            [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
-          {"--frames", "N", "Frames for each setting, drawn in turn with frames of exact (default 5)", read_int(o.frames, 1, 1000)},
+          {"--frames", "N", "Frames for each setting; drawn in turn with frames of exact (default 5)", read_int(o.frames, 1, 1000)},
           {"--lobes", "NAME,...", "Also measure these lobes, on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",
            [&o](const std::string& text) { return read_lobes(o.lobes, text); }},
           {"--quick", "", "Vary one setting at a time", set_to(o.quick)},
           {"--all", "", "Measure all combinations, those of shadows too", set_to(o.all)},
           {"--progress", "", "Show progress even if standard error is not a terminal", set_to(o.progress)}}});
-    return {"trade", "Measure time and error of a scene drawn with many settings", {scene_argument(o, true)}, std::move(groups), [options] {
-                return run_trade(*options);
-            }};
+    return {"trade",
+            "Measure time and error of a scene drawn with many settings",
+            {scene_argument(o, true)},
+            std::move(groups),
+            [options] { return run_trade(*options); },
+            Command::Listed::by_help_all,
+            {"halflit trade model.glb --quick", "halflit trade model.glb --lobes valve,sloan:0.3 -o lobes",
+             "halflit trade demo --size 320x180 --frames 9"},
+            {"--output", "--frames", "--lobes", "--quick", "--all", "--size", "--view", "--threads"}};
 }
 
 }  // namespace halflit::cli

@@ -12,14 +12,6 @@ namespace {
 
 const std::string kRoot = HALFLIT_SOURCE_DIR;
 
-/// Words of a line; none of them has quotes.
-std::vector<std::string> words_of_line(const std::string& line) {
-    std::istringstream text(line);
-    std::vector<std::string> words;
-    for (std::string word; text >> word;) words.push_back(word);
-    return words;
-}
-
 }  // namespace
 
 TEST_CASE("agent pages: docs/SKILL.md and llms.txt are the output of the program", "[cli][help]") {
@@ -56,8 +48,7 @@ TEST_CASE("agent pages: the command lines of docs/SKILL.md work", "[cli][help]")
     int lines = 0;
     for (std::string line; std::getline(page, line);) {
         if (!line.starts_with("    halflit ")) continue;
-        std::vector<std::string> words = words_of_line(line);
-        words.erase(words.begin());
+        const std::vector<std::string> words = arguments_of(line);
         const Outcome outcome = run(words, {.folder = folder.path()});
         INFO(line << "\n" << outcome.err);
         // Versions differ.

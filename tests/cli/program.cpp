@@ -45,6 +45,18 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
+std::vector<std::string> arguments_of(const std::string& line) {
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    std::string word;
+    stream >> word;
+    while (stream >> word) {
+        std::erase(word, '\'');
+        words.push_back(word);
+    }
+    return words;
+}
+
 std::vector<nlohmann::json> json_lines(const std::string& text) {
     std::vector<nlohmann::json> values;
     for (const std::string& line : lines_of(text)) values.push_back(nlohmann::json::parse(line));

@@ -52,7 +52,7 @@ Flag pixel_flag(std::vector<PixelPlace>& pixels) {
     };
     return {.names = "--pixel",
             .form = "X,Y",
-            .help = "The pixel, from the upper left corner of the picture; may be given several times",
+            .help = "The pixel, counted from the upper left corner; may be given several times",
             .read = read_pixel,
             .repeated = true};
 }

@@ -96,7 +96,7 @@ std::vector<FlagGroup> compare_flags(CompareOptions& options) {
                                              "--camera-orbit", "--azimuth", "--elevation",       "--ortho",         "--orthographic"};
     remove_flags(groups, kLeftOut);
     groups.push_back({"Differences",
-                      {{"--max", "CODES", "Largest difference of a colour's channel that is no change, 0 to 255 (default 2)",
+                      {{"--max", "CODES", "Ignore differences up to this many 8-bit codes; 0 to 255 (default 2)",
                         read_int(options.max_codes, 0, 255)}}});
     return groups;
 }

@@ -156,8 +156,8 @@ std::string aov_help() {
     };
     return "Also write files beside the picture, as x.depth.exr for x.png: " + names(true) + " as floats (.exr; .pfm without OpenEXR); " +
            names(false) +
-           " as 16-bit PNG; triangle as the four bytes of a PNG's pixels, the least first. Names of what is numbered are in "
-           "x.names.json, the depths of depth16's codes 1 and 65535 in x.depth16.json";
+           " as 16-bit PNG; triangle as the four bytes of a PNG's pixels, the least first. x.names.json has the names of what "
+           "is numbered, x.depth16.json the depths of the codes 1 and 65535";
 }
 
 std::vector<std::string> aov_paths(const std::string& picture, std::span<const Aov> aovs) {

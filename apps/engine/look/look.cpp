@@ -129,17 +129,19 @@ std::vector<FlagGroup> look_flags(LookOptions& o) {
         groups.begin(),
         {"Sheet",
          {{"--projection", "third|first",
-           "Third angle: the top is above the front, the right side on its right; first angle: the other way round. For views of sides, "
-           "with the front among them (default third)",
+           "Arrangement of views of sides, with the front among them: third angle: the top is above the front, the right side on its "
+           "right; first angle: the other way round (default third)",
            [&o](const std::string& text) -> Result<void> {
                if (text != "third" && text != "first") return fail(ErrorCode::usage, "expected third or first, found '" + text + "'");
                o.projection = text == "first" ? Projection::first_angle : Projection::third_angle;
                return {};
            }},
           {"--certify", "PIXELS",
-           "Add views until each triangle is seen with so many pixels, or is hidden from all around; the report lists those that are not",
+           "Add views until every triangle is seen; PIXELS: how many pixels of it one view must show. Triangles that are hidden from all "
+           "around are left out; the report lists those that are missing",
            read_int(o.certify, 1, 10000)},
-          {"--certify-views", "N", fmt::format("Most views of a certificate (default {})", o.most_views), read_int(o.most_views, 1, 1000)},
+          {"--certify-views", "N", fmt::format("Largest number of views that --certify draws (default {})", o.most_views),
+           read_int(o.most_views, 1, 1000)},
           {"--perspective", "", "Draw views in perspective; without it, by parallel rays", set_to(o.perspective)}}});
     return groups;
 }

@@ -12,11 +12,7 @@ Flag limit_flag(const char* name, T& target, const char* what, std::int64_t max)
     const auto parse = [max](const std::string& text) {
         return parse_int(text, 1, max).map([](std::int64_t n) { return static_cast<T>(n); });
     };
-    return {.names = name,
-            .form = "N",
-            .help = fmt::format("Refuse {} (default {})", what, target),
-            .read = parsed(target, parse),
-            .advanced = true};
+    return {.names = name, .form = "N", .help = fmt::format("Refuse {} (default {})", what, target), .read = parsed(target, parse)};
 }
 
 }  // namespace
@@ -30,35 +26,37 @@ Flag timeout_flag(double& seconds, std::string help) {
 FlagGroup untrusted_file_flags(RenderOptions& o) {
     constexpr std::int64_t kAny = std::numeric_limits<std::int64_t>::max();
     LoadLimits& limits = o.load.limits;
-    return {std::string(kLastPictureGroup),
-            {timeout_flag(o.timeout_s, "Stop a scene that is not loaded and drawn by then, with exit code 5"),
-             {"--max-memory", "MIB", "Stop a scene that needs more memory, all of the process counted, with exit code 5; at least 32",
-              parsed(o.max_memory_bytes,
-                     [](const std::string& text) {
-                         return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) {
-                             return static_cast<std::size_t>(n) * kMib;
-                         });
-                     })},
-             {"--strict", "", "Refuse a damaged file, instead of drawing what can be drawn of it with warnings", set_to(o.load.strict)},
-             {.names = "--allow-external",
-              .form = "DIR",
-              .help = "Also allow references to files in this folder",
-              .read = append_to(o.load.allow_external),
-              .repeated = true},
-             limit_flag("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny),
-             limit_flag("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny),
-             limit_flag("--max-json-depth", limits.max_json_depth, "JSON nested deeper", 1000),
-             limit_flag("--max-json-tokens", limits.max_json_tokens, "JSON of more tokens", kAny),
-             limit_flag("--max-texture-side", limits.max_texture_side, "textures with longer sides", kMaxTextureSide),
-             limit_flag("--max-texture-pixels", limits.max_texture_pixels, "textures of more pixels", std::int64_t{1} << 28),
-             limit_flag("--max-texture-bytes", limits.max_texture_bytes,
-                        "more pixels of textures than this; keep textures smaller, so that they fit in so many bytes", kAny),
-             limit_flag("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20),
-             limit_flag("--max-geometry-bytes", limits.max_geometry_bytes, "more memory for vertices and triangles", kAny),
-             limit_flag("--max-work", limits.max_work,
-                        "files and frames of more work, in nanoseconds of one core by estimate; without it, small files get some seconds",
-                        kAny),
-             limit_flag("--max-lights", limits.max_lights, "more lights", 1 << 20)}};
+    return {
+        std::string(kLastPictureGroup),
+        {timeout_flag(o.timeout_s, "Time limit; a scene that is not drawn by then ends with exit code 5"),
+         {"--max-memory", "MIB", "Memory limit of the process, at least 32; a scene that needs more ends with exit code 5",
+          parsed(o.max_memory_bytes,
+                 [](const std::string& text) {
+                     return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) {
+                         return static_cast<std::size_t>(n) * kMib;
+                     });
+                 })},
+         {"--strict", "", "Refuse a damaged file; without it, what can be read is drawn, with warnings", set_to(o.load.strict)},
+         {.names = "--allow-external",
+          .form = "DIR",
+          .help = "Also allow references to files in this folder",
+          .read = append_to(o.load.allow_external),
+          .repeated = true},
+         limit_flag("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny),
+         limit_flag("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny),
+         limit_flag("--max-json-depth", limits.max_json_depth, "JSON nested deeper", 1000),
+         limit_flag("--max-json-tokens", limits.max_json_tokens, "JSON of more tokens", kAny),
+         limit_flag("--max-texture-side", limits.max_texture_side, "textures with longer sides", kMaxTextureSide),
+         limit_flag("--max-texture-pixels", limits.max_texture_pixels, "textures of more pixels", std::int64_t{1} << 28),
+         limit_flag("--max-texture-bytes", limits.max_texture_bytes,
+                    "textures of more pixels in all than this number; textures that need more bytes are made smaller", kAny),
+         limit_flag("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20),
+         limit_flag("--max-geometry-bytes", limits.max_geometry_bytes, "more memory for vertices and triangles", kAny),
+         limit_flag(
+             "--max-work", limits.max_work,
+             "files and frames of more work than this estimate, in nanoseconds of one core; without it, small files may take some seconds",
+             kAny),
+         limit_flag("--max-lights", limits.max_lights, "more lights", 1 << 20)}};
 }
 
 }  // namespace halflit::engine

@@ -31,7 +31,6 @@ struct Flag {
     std::string help;
     ReadValue read;         ///< called for each use; for a switch with an empty text
     bool repeated = false;  ///< may be given several times
-    bool advanced = false;  ///< shown by --help-all alone
 
     /// "--output"
     [[nodiscard]] std::string long_name() const { return names.substr(names.rfind(',') + 1); }
@@ -43,14 +42,19 @@ struct FlagGroup {
 };
 
 struct Command {
+    enum class Listed { by_help, by_help_all, never };
+
     std::string name, help;
     std::vector<Positional> positionals;
     std::vector<FlagGroup> groups;
     std::function<Result<int>()> run;  ///< the exit code: 0, or 1 for a negative result
-    bool hidden = false;               ///< left out of the list of commands
-    bool lacking = false;              ///< this build cannot run it: left out of what the program offers, but not of its reference
+    Listed listed = Listed::by_help_all;
+    std::vector<std::string> examples{};  ///< command lines, shown by every help text
+    std::vector<std::string> usual{};     ///< long names of the flags that --help shows, in its order; empty: all
+    bool lacking = false;                 ///< this build cannot run it: left out of what the program offers, but not of its reference
 
-    [[nodiscard]] bool is_offered() const { return !hidden && !lacking; }
+    [[nodiscard]] bool is_hidden() const { return listed == Listed::never; }
+    [[nodiscard]] bool is_offered() const { return !is_hidden() && !lacking; }
 };
 
 /// Stores a parsed value in `target`, or returns its error; for use in a ReadValue.

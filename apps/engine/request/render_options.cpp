@@ -68,15 +68,18 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
     return {
         "Picture",
         {{"--size", "WxH",
-          fmt::format("Size in pixels (default {}x{}, reduced to the aspect ratio of the file's camera)", usual.width, usual.height),
+          fmt::format("Width and height in pixels; one number: the side of a square (default {}x{}, reduced to the aspect ratio of the "
+                      "file's camera)",
+                      usual.width, usual.height),
           parsed(o.size, parse_size)},
          {"--region", "X,Y,W,H", "Draw and write only this part of the picture", parsed(s.region, parse_region)},
          {"--background", "auto|COLOR|environment",
-          "transparent, #rgb, #rrggbb, #rrggbbaa or a name; auto: dark grey, behind dark surfaces light grey (default); environment: the "
-          "image of --env",
+          "Colour behind the model: #rgb, #rrggbb, #rrggbbaa, a name, or transparent; auto: dark grey, or light grey if the model is dark "
+          "(default); environment: the image of --env",
           [&o](const std::string& text) { return read_background(o, text); }},
          {"--exposure", "EV|auto[+EV]",
-          "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default); auto+1, auto-0.5: stops brighter",
+          "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default); auto+1: one stop brighter than "
+          "that, auto-0.5: half a stop darker",
           [&o](const std::string& text) { return read_exposure(o, text); }}}};
 }
 
@@ -108,18 +111,18 @@ FlagGroup camera_flags(RenderOptions& o) {
     return {
         "Camera (default: the file's first camera, or a view of the whole scene)",
         {{"--camera", "INDEX|NAME|frame|all",
-          "A camera of the file (default: the first); frame: a view of the whole scene; all: a picture by each camera of --camera-file, as "
-          "-o '{view}.png'",
+          "A camera of the file (default: the first); frame: no camera of the file, but a view of the whole scene; all: one picture for "
+          "each "
+          "camera of --camera-file, as -o '{view}.png'",
           [&o](const std::string& text) { return read_camera(o, text); }},
-         view_flag(o.whole_scene, "--azimuth", "DEG", "View the whole scene from this side: 0 is from +z, 90 from +x", o.view.azimuth_deg,
+         view_flag(o.whole_scene, "--azimuth", "DEG", "Angle of the view about the vertical: 0 is from +z, 90 from +x", o.view.azimuth_deg,
                    -3600, 3600),
-         view_flag(o.whole_scene, "--elevation", "DEG", "View it from this angle above the horizon, -90 to 90", o.view.elevation_deg, -90,
-                   90),
-         view_flag(o.whole_scene, "--zoom", "N", "Enlarge it by this factor", o.view.zoom, 1e-3f, 1e3f),
+         view_flag(o.whole_scene, "--elevation", "DEG", "Angle of the view above the horizon, -90 to 90", o.view.elevation_deg, -90, 90),
+         view_flag(o.whole_scene, "--zoom", "N", "Enlarge the view by this factor", o.view.zoom, 1e-3f, 1e3f),
          view_flag(o.fov_given, "--fov", "DEG", "Vertical field of view, 1 to 170", o.view.fov_y_deg, 1, 170),
          {"--view", "front|back|left|right|top|bottom|iso|AZ,EL",
-          "View the whole scene from this side, or from the azimuth AZ and the elevation EL. All sides have one distance and one scale. "
-          "Several, with commas or repeated: a picture of each, as -o '{view}.png'",
+          "View the whole scene from this side; AZ,EL: from this azimuth and elevation, in degrees. All sides have the same distance and "
+          "scale. Several, with commas or repeated: one picture for each, as -o '{view}.png'",
           [&o](const std::string& text) -> Result<void> {
               const auto views = parse_views(text);
               if (!views) return tl::unexpected(views.error());
@@ -128,7 +131,7 @@ FlagGroup camera_flags(RenderOptions& o) {
               return {};
           },
           true},
-         {"--fit", "PIXELS", "Fit the view, or the largest of several, into the picture, with this margin",
+         {"--fit", "PIXELS", "Fit the model into the picture with this margin; several views share the scale of the largest",
           [&o](const std::string& text) {
               o.whole_scene = true;
               return assign(o.fit_px, parse_int(text, 0, 1 << 20).map([](std::int64_t n) {
@@ -142,22 +145,22 @@ FlagGroup camera_flags(RenderOptions& o) {
           }},
          {"--camera-position", "X,Y,Z", "Place the camera here", parsed(o.camera_position, parse_point)},
          {"--camera-orbit", "THETA PHI RADIUS",
-          "Place the camera around its target, as <model-viewer> does: degrees (or rad) about the vertical from +z, degrees from straight "
-          "above, and a distance in the file's unit (or cm, mm: hundredths and thousandths of it), in % of the one that shows all sides, "
-          "or "
-          "auto for that one",
+          "Place the camera around its target, as <model-viewer> does. THETA: angle about the vertical from +z, PHI: angle from straight "
+          "above, both in degrees, or as 1rad. RADIUS: distance in the file's unit; cm and mm: hundredths and thousandths of it; auto: the "
+          "distance that shows all sides; %: a share of that distance",
           parsed(o.camera_orbit, parse_camera_orbit)},
-         {"--camera-target", "X,Y,Z", "Point that a placed camera looks at (default: the centre of the scene)",
+         {"--camera-target", "X,Y,Z",
+          "Point that the camera of --camera-position or --camera-orbit looks at (default: the centre of the scene)",
           parsed(o.camera_target, parse_point)},
          {"--camera-file", "FILE",
-          "Cameras in place of the model's: JSON as a report's `camera`, a report of look or render, transforms.json of NeRF, COLMAP's "
-          "images.txt, or a glTF file. They are in the coordinates and along the axes of the model's file",
+          "Read cameras from this file instead of the model: a report of look or render, JSON like its `camera`, transforms.json of NeRF, "
+          "COLMAP's images.txt, or a glTF file. Their coordinates and axes are those of the model's file",
           read_text(o.camera_file)},
-         {"--ground", "", "Add a ground below the scene that is invisible but for the shadows on it", set_to(o.ground)},
+         {"--ground", "", "Add a ground below the scene that shows only shadows", set_to(o.ground)},
          {"--up", form_of(kUpAxisNames),
           fmt::format(
-              "Axis of the model that points up (default {}, and z for STL and 3MF): views, the ground and the light from above go by "
-              "it. All coordinates are the file's",
+              "Axis of the model that points up (default {}, and z for STL and 3MF). Views, the ground and the light from above follow it; "
+              "coordinates stay those of the file",
               name_of(UpAxis::y, kUpAxisNames)),
           [&o](const std::string& text) {
               UpAxis up{};
@@ -170,7 +173,8 @@ FlagGroup camera_flags(RenderOptions& o) {
 FlagGroup pose_flags(RenderOptions& o) {
     return {
         "Pose",
-        {{"--animation", "NAME|INDEX|none", "Animation of the file that poses the scene (default: the first); none: the pose of the nodes",
+        {{"--animation", "NAME|INDEX|none",
+          "Animation of the file that poses the scene (default: the first); none: the pose without animation",
           [&o](const std::string& text) -> Result<void> {
               if (text.empty()) return fail(ErrorCode::usage, "expected a name, an index or none, found ''");
               o.load.animation = text;
@@ -191,7 +195,7 @@ FlagGroup pose_flags(RenderOptions& o) {
               o.load.variant = text;
               return {};
           }},
-         {"--time", "SECONDS", "Time in the animation (default 0); before its first key and after its last one, these are drawn",
+         {"--time", "SECONDS", "Time in the animation (default 0); outside of the animation, its first or last pose is drawn",
           [&o](const std::string& text) {
               o.film.time_held = true;
               return assign(o.load.time_s, parse_time(text));
@@ -207,11 +211,11 @@ FlagGroup part_flags(RenderOptions& o) {
         "Parts: what one node of the file places",
         {flag("--only",
               "Draw only this part, and view it: a name, a number from the list of halflit info, or a pattern with * and ?; several with "
-              "commas or repeated. The name of a node with parts below it stands for these",
+              "commas or repeated. The name of a node stands for all parts below it",
               parts.only),
          flag("--hide", "Leave this part out", parts.hide),
-         flag("--ghost", "Draw this part translucent and pale, so that what lies inside is seen. It casts no shadow", parts.ghost),
-         flag("--highlight", "Draw this part in one bright colour, and the other parts that are not ghosts in grey", parts.highlight),
+         flag("--ghost", "Draw this part translucent and pale, so that you see what lies inside; it casts no shadow", parts.ghost),
+         flag("--highlight", "Draw this part in one bright colour, and all others but ghosts in grey", parts.highlight),
          {"--highlight-color", "COLOR", "Colour of --highlight: #rgb, #rrggbb or a name (default #ff8400, orange)",
           [&parts](const std::string& text) {
               return assign(parts.highlight_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
@@ -223,9 +227,9 @@ FlagGroup section_flags(RenderOptions& o) {
         "Section",
         {{.names = "--section",
           .form = "AXIS=POS|A,B,C,D",
-          .help = "Cut the scene: x=0.5 keeps what is below 0.5 on the x axis, -x=0.5 what is above, x=50% is the middle of the scene, "
-                  "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as in the measures of `info`. Closed objects get caps, "
-                  "whose areas go into the report",
+          .help = "Cut the scene by a plane: x=0.5 keeps what is below 0.5 on the x axis, -x=0.5 what is above, x=50% is the middle, "
+                  "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as in the measures of `info`. Closed objects get caps; "
+                  "the report has their areas",
           .read = [&o](const std::string& text) -> Result<void> {
               auto section = parse_section(text);
               if (!section) return tl::unexpected(section.error());
@@ -233,9 +237,10 @@ FlagGroup section_flags(RenderOptions& o) {
               return {};
           },
           .repeated = true},
-         {"--section-hatch", form_of(kOffOn), fmt::format("Draw lines on the caps (default {})", name_of(o.hatch, kOffOn)),
+         {"--section-hatch", form_of(kOffOn), fmt::format("Hatch the caps of the cut with lines (default {})", name_of(o.hatch, kOffOn)),
           named(o.hatch, kOffOn)},
-         {"--section-spacing", "N", "Distance between these lines, in the scene's units (default: a fortieth of the scene's diagonal)",
+         {"--section-spacing", "N",
+          "Distance between the lines of the hatch, in the scene's units (default: a fortieth of the scene's diagonal)",
           number(o.hatch_spacing, 0.0f, std::numeric_limits<float>::max())}}};
 }
 
@@ -286,23 +291,26 @@ FlagGroup environment_flags(RenderOptions& o) {
 }
 
 FlagGroup shadow_flags(RenderOptions& o) {
-    return {"Shadows",
-            {{"--sun-size", "DEG",
-              "Soft shadows: angle from the middle to the rim of directional lights, the studio's too, 0 to 40 (default 0; the sun: 0.27)",
-              number(o.sun_size_deg, 0.0f, 40.0f)},
-             {"--lamp-size", "R", "Soft shadows: radius of point and spot lights, in the scene's units (default 0)",
-              number(o.lamp_size, 0.0f, 1e9f)}}};
+    return {
+        "Shadows",
+        {{"--sun-size", "DEG",
+          "Soft shadows of directional lights and of the studio: angle from the middle of the light to its rim, 0 to 40 (default 0; the "
+          "sun has 0.27)",
+          number(o.sun_size_deg, 0.0f, 40.0f)},
+         {"--lamp-size", "R", "Soft shadows of point and spot lights: their radius, in the scene's units (default 0)",
+          number(o.lamp_size, 0.0f, 1e9f)}}};
 }
 
 FlagGroup surface_flags(RenderOptions& o) {
     return {
         "Surface",
-        {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe, reflected light over the angle to the light (default lambert)",
+        {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe: how reflected light depends on the angle to the light (default lambert)",
           [&o](const std::string& text) -> Result<void> {
               o.lobe_name = text;
               return {};
           }},
-         {"--wrap", "W", fmt::format("Wrap, 0 to {}: light reaches surfaces whose cosine to the light is above -W", kMaxLobeWrap),
+         {"--wrap", "W",
+          fmt::format("Wrap, 0 to {}: light reaches surfaces where the cosine between normal and light is above -W", kMaxLobeWrap),
           number(o.lobe.wrap, 0.0f, kMaxLobeWrap)},
          {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)},
          {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
@@ -311,13 +319,15 @@ FlagGroup surface_flags(RenderOptions& o) {
               return {};
           }},
          {"--own-lobes", form_of(kOffOn),
-          fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power count for all",
+          fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power apply to all",
                       name_of(o.own_lobes, kOffOn)),
           named(o.own_lobes, kOffOn)},
-         {"--kd", "X", "Diffuse factor of all lit materials, 0 to 1, times their base colour", number(o.classic.diffuse, 0.0f, 1.0f)},
+         {"--kd", "X", "Diffuse factor of all lit materials, 0 to 1; it multiplies their base colour",
+          number(o.classic.diffuse, 0.0f, 1.0f)},
          {"--ks", "X",
-          "Specular factor of all lit materials, 0 to 1: the light mirrored straight on (default 0.04). What is mirrored is not diffuse: "
-          "--kd counts 1 - X times",
+          "Specular factor of all lit materials, 0 to 1: the reflectance at normal incidence (default 0.04). It multiplies the diffuse "
+          "part by "
+          "1 - X",
           number(o.classic.specular, 0.0f, 1.0f)},
          {"--shininess", "S",
           fmt::format("Exponent of Blinn's highlight for all lit materials, 0 to {}, instead of their roughness; Phong's is S / 4. Each of "
@@ -325,10 +335,10 @@ FlagGroup surface_flags(RenderOptions& o) {
                       kMaxShininess),
           number(o.classic.exponent, 0.0f, kMaxShininess)},
          {"--crease", "DEG",
-          fmt::format("Models without normals that are not glTF: smooth across edges up to this angle between their triangles, 0 to 180, "
-                      "in noisy scans up to twice as much "
-                      "(default {})",
-                      o.load.crease_deg),
+          fmt::format(
+              "Shade edges up to this angle between triangles as smooth, 0 to 180, in noisy scans up to twice the angle; for models "
+              "without normals that are not glTF (default {})",
+              o.load.crease_deg),
           number(o.load.crease_deg, 0.0f, 180.0f)}}};
 }
 
@@ -368,7 +378,7 @@ Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
 Positional scene_argument(RenderOptions& o, bool required) {
     return {
         .name = "SCENE",
-        .help = fmt::format("A {} file, - for standard input, or a built-in scene: demo, sphere:N (N triangles), lights:N (N point lights)",
+        .help = fmt::format("A {} file; - for standard input; or a built-in scene: demo, sphere:N (N triangles), lights:N (N point lights)",
                             io::detail::list_of_formats(&io::detail::FormatRow::extension)),
         .read = read_text(o.scene),
         .required = required,

@@ -24,7 +24,7 @@ std::string help_of(const Setting& setting, const Settings& defaults) {
     std::string help(setting.help);
     const SettingValues values = setting.values;
     const bool ranged = values.kind != SettingValues::Kind::named && values.list.empty() && values.high < 1e18 && values.zero.empty();
-    if (ranged) help.insert(std::min(help.find(" (default"), help.size()), ", " + values.expected());
+    if (ranged) help.insert(std::min(help.find(" (default"), help.size()), "; " + values.expected());
     if (help.find("default") == std::string::npos && !setting.values.zero_too)
         help += fmt::format(" (default {})", setting_text(setting, defaults));
     return help;

@@ -105,14 +105,18 @@ Command bench_command() {
     auto groups = render_flags(*options, kBenchSize);
     groups.push_back({"Measurement",
                       {{"--frames", "N", "Number of frames (default 10)", read_int(options->frames, 1, 1000000)},
-                       {"--keep", "", "Let each frame reuse what the one before computed, as for a scene at rest", set_to(options->keep)},
-                       {"--encode", "", "Also time how long the picture takes to encode as PNG", set_to(options->encode)},
+                       {"--keep", "", "Reuse what the frame before computed; as for a scene at rest", set_to(options->keep)},
+                       {"--encode", "", "Also time the encoding of the picture as PNG", set_to(options->encode)},
                        {"--json", "", "Print one JSON object", set_to(options->json)}}});
     return {"bench",
             "Time the drawing of a scene, from the scene in memory to 8-bit codes in memory",
             {scene_argument(*options, true)},
             std::move(groups),
-            [options] { return run_bench(*options); }};
+            [options] { return run_bench(*options); },
+            Command::Listed::by_help_all,
+            {"halflit bench model.glb", "halflit bench model.glb --frames 50 --size 640x360 --threads 1",
+             "halflit bench demo --samples 1 --json"},
+            {"--frames", "--keep", "--encode", "--json", "--size", "--view", "--samples", "--max-error", "--threads", "--isa"}};
 }
 
 }  // namespace halflit::cli

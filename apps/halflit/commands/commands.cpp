@@ -10,9 +10,9 @@ namespace halflit::cli {
 std::vector<Command> all_commands() {
     std::vector<Command> commands;
     for (const auto make :
-         {render_command, view_command,       bench_command, info_command,  explain_command, diff_command,       compare_command,
-          sheet_command,  look_command,       plan_command,  merge_command, golden_command,  lobe_command,       env_command,
-          trade_command,  playground_command, mcp_command,   help_command,  man_command,     completion_command, flags_command}) {
+         {render_command, look_command,       compare_command, info_command, view_command,  diff_command,       golden_command,
+          sheet_command,  explain_command,    bench_command,   plan_command, merge_command, lobe_command,       env_command,
+          trade_command,  playground_command, mcp_command,     help_command, man_command,   completion_command, flags_command}) {
         Command& command = commands.emplace_back(make());
         // Those that draw a scene have the engine's flags, which say nothing of messages.
         const auto last = std::find_if(command.groups.begin(), command.groups.end(),

@@ -88,10 +88,10 @@ Command compare_command() {
     auto groups = compare_flags(o);
     groups.insert(groups.begin(),
                   {"Comparison",
-                   {{"-o,--output", "DIR", "Folder for index.html, a page that holds its pictures, and compare.png",
+                   {{"-o,--output", "DIR", "Folder for the result: index.html, a page that holds its pictures, and compare.png",
                      [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
                     {"--json", "FILE", "Write the numbers as one JSON object; - is standard output", read_text(o.json)},
-                    {"--markdown", "FILE", "Write a comment for a pull request, with the picture of -o; - is standard output",
+                    {"--markdown", "FILE", "Write a comment for a pull request; it shows the picture of -o; - is standard output",
                      read_text(o.markdown)}}});
     Positional a = scene_argument(o, true), b = scene_argument(o, true);
     a.name = "A", a.help = "The first version: " + a.help, a.read = read_text(o.a);
@@ -102,7 +102,11 @@ Command compare_command() {
         "differ",
         {std::move(a), std::move(b)},
         std::move(groups),
-        [options] { return run_compare(*options); }};
+        [options] { return run_compare(*options); },
+        Command::Listed::by_help,
+        {"halflit compare old.stl new.stl", "halflit compare old.stl new.stl -o changes --view front,iso",
+         "halflit compare old.stl new.stl --json changes.json --markdown comment.md"},
+        {"--output", "--json", "--markdown", "--view", "--size", "--up", "--only", "--max"}};
 }
 
 }  // namespace halflit::cli

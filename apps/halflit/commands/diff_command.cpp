@@ -82,9 +82,8 @@ Command diff_command() {
     const auto options = std::make_shared<DiffOptions>();
     DiffOptions& o = *options;
     return {"diff",
-            "Compare two pictures (PNG, JPEG, BMP, TGA, or HDR, PFM, EXR by their sRGB codes), or two folders of them; exit code 1 if they "
-            "differ by more "
-            "than --max and --max-share allow",
+            "Compare two pictures, or two folders of them: PNG, JPEG, BMP, TGA, or HDR, PFM, EXR by their sRGB codes; exit code 1 if they "
+            "differ by more than --max and --max-share allow",
             {{.name = "A", .help = "The expected picture, or a folder", .read = read_text(o.a), .required = true, .form = "FILE"},
              {.name = "B",
               .help = "What to compare with it; files in folders are paired by their paths",
@@ -100,7 +99,10 @@ Command diff_command() {
                {"-o,--output", "FILE|DIR",
                 "Write the absolute differences as a picture, stretched to the full range; for folders a folder of such pictures",
                 read_text(o.output)}}}},
-            [options] { return run_diff(*options); }};
+            [options] { return run_diff(*options); },
+            Command::Listed::by_help,
+            {"halflit diff old.png new.png", "halflit diff old.png new.png --max 2 -o difference.png",
+             "halflit diff expected/ drawn/ --max-share 0.1%"}};
 }
 
 }  // namespace halflit::cli

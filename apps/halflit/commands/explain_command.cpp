@@ -38,10 +38,14 @@ Command explain_command() {
     groups.insert(groups.begin(),
                   {"Output", {pixel_flag(options->pixels), {"--json", "", "Print one JSON object", set_to(options->json)}}});
     return {"explain",
-            "Tell what made a pixel: its triangle, material and lights, what hides them, and what lies before and behind it",
+            "Explain a pixel: its triangle, material and lights, what hides the lights, and what lies before and behind it",
             {scene_argument(*options, true)},
             std::move(groups),
-            [options] { return run_explain(*options); }};
+            [options] { return run_explain(*options); },
+            Command::Listed::by_help_all,
+            {"halflit explain part.stl --pixel 640,360", "halflit explain part.stl --view top --pixel 640,360 --pixel 600,300",
+             "halflit explain part.stl --pixel 640,360 --json"},
+            {"--pixel", "--json", "--size", "--view", "--camera", "--up", "--section", "--only"}};
 }
 
 }  // namespace halflit::cli

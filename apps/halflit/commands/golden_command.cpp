@@ -125,7 +125,7 @@ Command golden_command() {
     const auto options = std::make_shared<GoldenOptions>();
     GoldenOptions& o = *options;
     return {"golden",
-            "Draw the scenes of DIR/golden.json, and compare them with the expected pictures beside it; exit code 1 if one differs",
+            "Compare the scenes of DIR/golden.json with their expected pictures; exit code 1 if one differs",
             {{.name = "ACTION",
               .help = "check: compare; update: write the expected pictures that have changed",
               .read = read_text(o.action),
@@ -148,7 +148,9 @@ Command golden_command() {
                 [&o](const std::string& text) -> Result<void> { return assign(o.max_codes, parse_int(text, 0, 255)); }},
                {"--max-share", "SHARE", "Share of the pixels that may differ by more, such as 0.1% or 0.001 (default: the list's, or 0)",
                 [&o](const std::string& text) { return assign(o.max_share, parse_share(text)); }}}}},
-            [options] { return run_golden(*options); }};
+            [options] { return run_golden(*options); },
+            Command::Listed::by_help,
+            {"halflit golden update models", "halflit golden check models", "halflit golden check models -o report --junit report.xml"}};
 }
 
 }  // namespace halflit::cli

@@ -37,9 +37,14 @@ Command info_command() {
     groups.push_back({"Output",
                       {{"--json", "", "Print one JSON object", set_to(options->json)},
                        {"--parts", "", "Measure each part: size, area, volume", set_to(options->measure_parts)}}});
-    return {"info", "Describe a scene, and what drawing it requires", {scene_argument(*options, true)}, std::move(groups), [options] {
-                return run_info(*options);
-            }};
+    return {"info",
+            "Describe a scene, and what drawing it requires",
+            {scene_argument(*options, true)},
+            std::move(groups),
+            [options] { return run_info(*options); },
+            Command::Listed::by_help,
+            {"halflit info model.glb", "halflit info part.stl --parts", "halflit info model.glb --json --strict"},
+            {"--json", "--parts", "--up", "--scene", "--animation", "--size", "--strict", "--timeout", "--max-memory"}};
 }
 
 }  // namespace halflit::cli

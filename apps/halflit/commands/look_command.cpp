@@ -97,18 +97,22 @@ Command look_command() {
     LookFiles& o = *options;
     auto groups = look_flags(o);
     std::vector<Flag>& sheet = groups.front().flags;
-    sheet.insert(sheet.begin(),
-                 {{"-o,--output", "FILE|FOLDER/",
-                   "The sheet: a .png, .jpg, .bmp, .tga or .webp file; - for PNG on standard output (default: SCENE's name.look.png). A "
-                   "folder: a PNG file of each view instead",
-                   read_text(o.output)},
-                  {"--json", "FILE|-", "Cameras, and what each view shows of each part, as JSON; without -o, no sheet is drawn",
-                   read_text(o.json)}});
+    sheet.insert(sheet.begin(), {{"-o,--output", "FILE|FOLDER/",
+                                  "The sheet, a picture of all views: a .png, .jpg, .bmp, .tga or .webp file; - for PNG on standard output "
+                                  "(default: SCENE's name.look.png). A folder: a PNG file of each view instead",
+                                  read_text(o.output)},
+                                 {"--json", "FILE|-",
+                                  "Write a report as JSON: cameras, and what each view shows of each part; without -o, no sheet is drawn",
+                                  read_text(o.json)}});
     return {"look",
-            "Draw labelled views of a model on one sheet, and report what they show",
+            "Draw labelled views of a model on one sheet; report what each shows",
             {scene_argument(o, true)},
             std::move(groups),
-            [options] { return run_look(*options); }};
+            [options] { return run_look(*options); },
+            Command::Listed::by_help,
+            {"halflit look part.stl", "halflit look part.stl -o look.png --json look.json --view front,right,back",
+             "halflit look part.stl -o cut.png --section x=50% --hidden-edges dashed"},
+            {"--output", "--json", "--view", "--size", "--up", "--only", "--section", "--hidden-edges", "--perspective", "--certify"}};
 }
 
 }  // namespace halflit::cli

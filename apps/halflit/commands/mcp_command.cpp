@@ -23,8 +23,10 @@ Command mcp_command() {
         {{"Server",
           {{"--root", "FOLDER", "Read models below this folder, and write pictures there (default: the current one)", read_text(o.root)},
            {"--allow-external", "", "Read files outside of that folder too", set_to(o.allow_external)},
-           timeout_flag(o.timeout_s, fmt::format("Stop a call that takes longer, with an error (default {})", o.timeout_s)),
-           {"--max-memory", "MIB", "Stop a call that needs more memory, all of the process counted; at least 32 (default: no limit)",
+           timeout_flag(o.timeout_s,
+                        fmt::format("Time limit of a call; one that takes longer ends with an error (default {})", o.timeout_s)),
+           {"--max-memory", "MIB",
+            "Memory limit of the process, at least 32; a call that needs more ends with an error (default: no limit)",
             parsed(o.max_memory_bytes, read_memory)}}}},
         [options] { return serve(*options); }};
 }

@@ -296,16 +296,14 @@ Command merge_command() {
                        .repeated = true,
                        .form = "FILE",
                        .usage = "REPORT..."};
-    return {
-        "merge",
-        "Verify that the pictures of all shards are there and have the hashes of their reports, and join parts or frames; exit code 1 if "
-        "not",
-        {std::move(reports)},
-        {{"Flags",
-          {{"-o,--output", "FILE", "Join parts into a picture, or frames into one .gif, .apng or .webp file; without it, verify alone",
-            read_text(o.output)},
-           {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.dither)}}}},
-        [options] { return run_merge(*options); }};
+    return {"merge",
+            "Check by their reports that the pictures of all shards are complete, and join parts or frames; exit code 1 if they are not",
+            {std::move(reports)},
+            {{"Flags",
+              {{"-o,--output", "FILE", "Join parts into a picture, or frames into one .gif, .apng or .webp file; without it, verify alone",
+                read_text(o.output)},
+               {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.dither)}}}},
+            [options] { return run_merge(*options); }};
 }
 
 }  // namespace halflit::cli

@@ -134,14 +134,14 @@ Command plan_command() {
                      .repeated = true,
                      .usage = "-- render ..."};
     return {"plan",
-            "Divide a run of render among processes: print its commands, one a line, or the job of a scheduler",
+            "Divide a run of render among processes: print one command a line, or the job of a scheduler",
             {std::move(words)},
             {{"Flags",
               {{"--shards", "N", "Number of parts (default: one for each frame or scene, at most 1000; 16 for one picture)",
                 read_int(o.shards, 1, static_cast<int>(kMostShards))},
                {"--for", joined({std::begin(kForms), std::end(kForms)}, "|"),
-                "Commands as lines, a pipe into GNU parallel, a batch script for sbatch, an indexed job for kubectl, or the command of an "
-                "OpenCue layer (default lines)",
+                "Form of the output: commands as lines, a pipe into GNU parallel, a batch script for sbatch, an indexed job for kubectl, "
+                "or the command of an OpenCue layer (default lines)",
                 [&o](const std::string& text) {
                     return read_value(raster::named(kForms), text).map([&](double i) { o.form = kForms[static_cast<int>(i)]; });
                 }}}}},

@@ -49,7 +49,9 @@ Command playground_command() {
             {{"Flags", {{"-o,--output", "FILE", "The page, one file (default playground.html); -: standard output", read_text(*output)}}},
              {"Messages", message_flags()}},
             [output] { return run_playground(*output); },
-            false,
+            Command::Listed::by_help_all,
+            {},
+            {},
             HALFLIT_HAS_PLAYGROUND == 0};
 }
 

@@ -40,14 +40,14 @@ Command about_commands(const char* name, const char* help, std::function<std::st
         if (!command) return tl::unexpected(command.error());
         return print(text(commands, *command));
     };
-    return {name, help, {{.name = "COMMAND", .help = "One of the commands", .read = read_text(*chosen)}}, {}, run, true};
+    return {name, help, {{.name = "COMMAND", .help = "One of the commands", .read = read_text(*chosen)}}, {}, run, Command::Listed::never};
 }
 
 }  // namespace
 
 Command help_command() {
     return about_commands("help", "Print the help of the program or of a command", [](const auto& commands, const Command* command) {
-        return command == nullptr ? program_help(commands, help_width()) : command_help(*command, false, help_width());
+        return command == nullptr ? program_help(commands, false, help_width()) : command_help(*command, false, help_width());
     });
 }
 
@@ -71,7 +71,7 @@ Command completion_command() {
             {{.name = "SHELL", .help = "bash, zsh or fish", .read = read_text(*shell), .required = true, .form = "bash|zsh|fish"}},
             {},
             run,
-            true};
+            Command::Listed::never};
 }
 
 Command flags_command() {
@@ -93,10 +93,10 @@ Command flags_command() {
                 if (wanted->llms) return print(llms_page(commands));
                 std::string text;
                 for (const Command& command : commands)
-                    if (!command.hidden) text += (text.empty() ? "" : "\n") + command_help(command, true, help_width());
+                    if (!command.is_hidden()) text += (text.empty() ? "" : "\n") + command_help(command, true, help_width());
                 return print(text);
             },
-            true};
+            Command::Listed::never};
 }
 
 }  // namespace halflit::cli

@@ -169,19 +169,27 @@ Command sheet_command() {
            read_text(o.output)},
           {"--columns", "N", "Cells in a row (default: for a page half as wide again as high)", read_int(o.columns, 1, kMostColumns)},
           {"--references", "DIR|beside",
-           "Show DIR/NAME.png (or .jpg) beside the picture of NAME.glb; without it, as with beside, a picture that lies next to the "
-           "model or one folder above: screenshot/screenshot.png, screenshot.png, reference.png, reference/NAME.png",
+           "Show reference pictures: DIR/NAME.png (or .jpg) beside the picture of NAME.glb. Where there is none, and with beside, it is a "
+           "picture next to the model or one folder above: screenshot/screenshot.png, screenshot.png, reference.png, reference/NAME.png",
            read_text(o.references)}}});
     Positional scenes = scene_argument(o, true);
     scenes.usage = "SCENE...";
     scenes.read = append_to(o.scenes);
     scenes.repeated = true;
-    return {"sheet", "Draw many scenes into one picture, with their names", {std::move(scenes)}, std::move(groups), [options] {
+    return {"sheet",
+            "Draw many scenes into one picture, with their names",
+            {std::move(scenes)},
+            std::move(groups),
+            [options]() -> Result<int> {
                 auto named = with_models_named(options->scenes);
-                if (!named) return Result<int>(tl::unexpected(named.error()));
+                if (!named) return tl::unexpected(named.error());
                 options->scenes = *std::move(named);
                 return run_sheet(*options);
-            }};
+            },
+            Command::Listed::by_help_all,
+            {"halflit sheet part.stl old.stl new.stl", "halflit sheet '*.stl' --columns 2 --size 200 -o parts.png",
+             "halflit sheet model.glb demo --view front"},
+            {"--output", "--columns", "--references", "--size", "--view", "--up", "--background", "--edges"}};
 }
 
 }  // namespace halflit::cli

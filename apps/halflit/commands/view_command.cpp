@@ -96,25 +96,28 @@ Command view_command() {
     constexpr std::string_view kLeftOut[] = {"--region"};
     remove_flags(groups, kLeftOut);
     viewer::ViewerOptions& window = options->window;
-    groups.insert(groups.begin(),
-                  {"Window",
-                   {{"--tab", "plan|report|pixel", "Text in the lower part of the panel at the start (default plan)",
-                     [&window](const std::string& text) { return read_tab(window.tab, text); }},
-                    {"--orbit", "N", "Without a person: turn once around the scene in N pictures, draw all samples, and end",
-                     read_int(window.rehearsal.orbit_frames, 1, 1000000)},
-                    {"--click", "X,Y", "Without a person: then click on this pixel, which tells its triangle, its lights and its error",
-                     [&window](const std::string& text) { return read_click(window.rehearsal.click, text); }},
-                    {"--screenshot", "FILE", "Without a person: at the end, write the window with its panel as a picture",
-                     read_text(window.screenshot)},
-                    {"--report", "FILE", "Without a person: at the end, write times and the clicked pixel as JSON; - is standard output",
-                     read_text(options->report)}}});
-    return {"view",
-            "Show a scene in a window: turn it, change light and lobes, click on pixels",
-            {scene_argument(*options, false)},
-            std::move(groups),
-            [options] { return run_view(*options); },
-            false,
-            !viewer::has_viewer()};
+    groups.insert(
+        groups.begin(),
+        {"Window",
+         {{"--tab", "plan|report|pixel", "Text in the lower part of the panel at the start (default plan)",
+           [&window](const std::string& text) { return read_tab(window.tab, text); }},
+          {"--orbit", "N", "Automatic run: turn once around the scene in N pictures, draw all samples, and end",
+           read_int(window.rehearsal.orbit_frames, 1, 1000000)},
+          {"--click", "X,Y", "Automatic run: then click on this pixel, which tells its triangle, its lights and its error",
+           [&window](const std::string& text) { return read_click(window.rehearsal.click, text); }},
+          {"--screenshot", "FILE", "Automatic run: at the end, write the window with its panel as a picture", read_text(window.screenshot)},
+          {"--report", "FILE", "Automatic run: at the end, write times and the clicked pixel as JSON; - is standard output",
+           read_text(options->report)}}});
+    return {
+        "view",
+        "Show a scene in a window: turn it, change light and lobes, click on pixels",
+        {scene_argument(*options, false)},
+        std::move(groups),
+        [options] { return run_view(*options); },
+        Command::Listed::by_help,
+        {"halflit view model.glb", "halflit view part.stl --view iso --edges feature", "halflit view model.glb --tab pixel --lobe valve"},
+        {"--size", "--view", "--camera", "--up", "--background", "--env", "--edges", "--section", "--lobe", "--tab"},
+        !viewer::has_viewer()};
 }
 
 }  // namespace halflit::cli

@@ -166,39 +166,38 @@ Command render_table(RenderLine& o) {
     groups.push_back(
         {"Moving pictures",
          {{"--frames", "A-B[:STEP]",
-           "Draw these frames, into -o 'frame_{:04}.png' or one .gif, .apng or .webp file; without --turntable, the animation at N / FPS "
-           "seconds. A frame depends on its number alone",
+           "Draw these frames, into -o 'frame_{:04}.png' or one .gif, .apng or .webp file. Without --turntable, frame N shows the "
+           "animation at N / FPS seconds. A frame's pixels depend on its number alone",
            parsed(o.film.frames, parse_frames)},
           {"--fps", "F",
            "Frames a second, as 24, 23.976 or 30000/1001 (default: 24; 12 for --turntable). With --turntable and --frames, the animation "
            "runs too",
            parsed(o.film.fps, parse_fps)},
-          {"--turntable", "N", "Turn the camera around the scene, once in N frames, and the studio with it (default frames: 0 to N - 1)",
+          {"--turntable", "N", "Turn the camera once around the scene in N frames; the studio turns with it (default frames: 0 to N - 1)",
            read_int(o.film.turntable, 1, 100000)},
           {"--dither", "", "GIF: mix its 256 colours by an ordered pattern", set_to(o.film.dither)},
           {"--quality", "draft|fast|full",
-           "draft: 95 % of the picture's pixels are within 8 codes of full quality in three frames that are probed; fast: 99 % within 2, "
-           "which saves little; "
-           "other frames are not checked; one picture alone has full quality (default full)",
+           "Quality of a film: fast: 99 % of the pixels are within 2 codes of full quality, which saves little; draft: 95 % within 8. It "
+           "is measured in three frames; the others are not checked. A single picture has full quality (default full)",
            parsed(o.film.quality, parse_quality)},
           {"--share", "PERCENT",
-           "With --max-error and --turntable or --frames: so many of the pixels are within it, measured as --quality is instead of proven",
+           "Share of a film's pixels that must be within --max-error; measured in three frames, as --quality is, instead of proven",
            parsed(o.film.share, parse_percent)}}});
     groups.push_back(
         {"Output",
          {{"-o,--output", "FILE",
-           "A .png, .jpg, .bmp, .tga or .webp file, or linear floats as .exr, .pfm or .hdr; - for PNG on standard output; FOLDER/ or "
+           "A .png, .jpg, .bmp, .tga or .webp file; .exr, .pfm or .hdr for linear floats; - for PNG on standard output; FOLDER/ or "
            "{stem}.png for one picture of each scene; {folder} and {index:04} are known too (default: SCENE's name.png)",
            read_path(o.output)},
           {"--format", format_names("|", "|"), "Format of the picture, whatever its name", parsed(o.format, parse_format)},
           {"--out-dir", "FOLDER", "The same as -o FOLDER/", read_path(o.folder)},
-          {"--files-from", "FILE|-", "Draw the scenes that a file names too, one a line; - is standard input", read_path(o.list)},
+          {"--files-from", "FILE|-", "Also draw the scenes that this file names, one a line; - is standard input", read_path(o.list)},
           {"--shard", "I/N|auto[/N]",
-           "Draw part I of N, from 0 on: of the frames, of the scenes, or of one picture's rows; auto takes I from Slurm, Kubernetes, AWS "
-           "Batch or GNU parallel. The report takes the part's name. See halflit plan and merge",
+           "Draw part I of N, counted from 0: of the frames, of the scenes, or of one picture's rows; auto takes I from Slurm, Kubernetes, "
+           "AWS Batch or GNU parallel. The report's name gets the part's. See halflit plan and merge",
            parsed(o.shard, parse_shard)},
-          {"--skip-existing", "", "Leave pictures alone that are there, so that a run can be taken up again", set_to(o.skip_existing)},
-          {"--blank-check", "", "Name pictures in which nothing is seen; if there are any, the exit code is 1", set_to(o.blank_check)},
+          {"--skip-existing", "", "Keep pictures that exist already, so that a run can be continued", set_to(o.skip_existing)},
+          {"--blank-check", "", "Name pictures that show nothing; if there are any, the exit code is 1", set_to(o.blank_check)},
           {"--aov", "NAME,...", aov_help(), parsed(o.aovs, parse_aovs)},
           {"--report", "FILE.json|-", "Write size, hash, times and counts as JSON; on failure, the error. Of several scenes, one line each",
            read_path(o.report)}}});
@@ -207,7 +206,15 @@ Command render_table(RenderLine& o) {
     scene.usage = "SCENE... [PICTURE]";
     scene.read = append_to(o.words);
     scene.repeated = true;
-    return {"render", "Draw a scene into a picture; without one, the demo scene", {std::move(scene)}, std::move(groups), {}};
+    return {"render",
+            "Draw a scene into a picture; without SCENE, the demo scene",
+            {std::move(scene)},
+            std::move(groups),
+            {},
+            Command::Listed::by_help,
+            {"halflit part.stl", "halflit part.stl --view iso --edges feature --size 800x600 -o part.png",
+             "halflit model.glb --turntable 36 --size 320 -o turn.webp"},
+            {"--output", "--size", "--view", "--camera", "--up", "--background", "--env", "--edges", "--section", "--turntable"}};
 }
 
 }  // namespace halflit::cli

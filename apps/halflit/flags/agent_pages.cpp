@@ -186,7 +186,7 @@ std::string skill_page(std::span<const Command> commands, std::span<const NamedH
     for (const NamedHelp& tool : tools) text += markdown_row(tool.name, tool.help);
     text += "\n## Commands\n| command | |\n|---|---|\n";
     for (const Command& command : commands)
-        if (!command.hidden) text += markdown_row("halflit " + command.name, command.help);
+        if (!command.is_hidden()) text += markdown_row("halflit " + command.name, command.help);
     return text + "\n" + kExitCodesHelp + "\n";
 }
 
@@ -196,7 +196,8 @@ std::string llms_page(std::span<const Command> commands) {
                        "every machine.\n\nThis page is the output of `halflit flags --llms`; a test compares the two.\n";
     text += section_of("Use", kDocuments) + section_of("Libraries", kLibrary) + "\n## Commands\n";
     for (const Command& command : commands)
-        if (!command.hidden) text += "- [halflit " + command.name + "](docs/flags.md#halflit-" + command.name + "): " + command.help + "\n";
+        if (!command.is_hidden())
+            text += "- [halflit " + command.name + "](docs/flags.md#halflit-" + command.name + "): " + command.help + "\n";
     return text + section_of("Inside", kInside);
 }
 

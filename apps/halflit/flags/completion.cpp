@@ -1,5 +1,7 @@
 #include "apps/halflit/flags/completion.hpp"
 
+#include "apps/halflit/flags/help_text.hpp"
+
 #include <algorithm>
 
 namespace halflit::cli {
@@ -45,14 +47,6 @@ std::string quoted(std::string_view text, std::string_view special) {
         out += c == '\'' ? std::string("’") : std::string(1, c);  // an apostrophe would end the quotes
     }
     return out;
-}
-
-/// The first part of an explanation, which is short enough for a list.
-std::string brief(const std::string& help) {
-    constexpr std::size_t kLeast = 12;  // shorter parts are names of values, as in "hard: shadows cut off .."
-    std::size_t end = help.size();
-    for (const char* mark : {"; ", ": ", ". ", " ("}) end = std::min(end, help.find(mark, kLeast));
-    return help.substr(0, end);
 }
 
 /// One pattern of bash's `case` for all flags of a command that take the same kind of value.
@@ -107,7 +101,7 @@ std::string bash_completion(std::span<const Command> commands) {
 std::string zsh_completion(std::span<const Command> commands) {
     std::string names, cases;
     for (const Command& command : commands) {
-        names += "        '" + quoted(command.name + ":", "") + quoted(brief(command.help), "\\:") + "'\n";
+        names += "        '" + quoted(command.name + ":", "") + quoted(first_part(command.help), "\\:") + "'\n";
         cases += "        " + command.name + ") _arguments \\\n";
         for (const Flag* flag : flags_of(command)) {
             const auto spellings = words_of(flag->names, ',');
@@ -116,8 +110,8 @@ std::string zsh_completion(std::span<const Command> commands) {
                                        : takes_folder(flag->form) ? "_files -/"
                                        : flag->form.empty()       ? ""
                                                                   : "(" + literals(flag->form) + ")";
-            cases += "            " + std::string(flag->repeated ? "'*'" : "") + name + "'[" + quoted(brief(flag->help), "\\[]:") + "]" +
-                     (flag->form.empty() ? "" : ":" + quoted(flag->form, "\\:") + ":" + action) + "' \\\n";
+            cases += "            " + std::string(flag->repeated ? "'*'" : "") + name + "'[" + quoted(first_part(flag->help), "\\[]:") +
+                     "]" + (flag->form.empty() ? "" : ":" + quoted(flag->form, "\\:") + ":" + action) + "' \\\n";
         }
         cases += "            '*:argument:_files' ;;\n";
     }
@@ -151,7 +145,8 @@ std::string fish_completion(std::span<const Command> commands) {
         if (command.name != "render") others.push_back(command.name);
     std::string text = "# fish completion of halflit\n";
     for (const Command& command : commands)
-        text += "complete -c halflit -n __fish_use_subcommand -a " + command.name + " -d '" + quoted(brief(command.help), "\\") + "'\n";
+        text +=
+            "complete -c halflit -n __fish_use_subcommand -a " + command.name + " -d '" + quoted(first_part(command.help), "\\") + "'\n";
     for (const Command& command : commands)
         for (const Flag* flag : flags_of(command)) {
             text += "complete -c halflit -n '" +
@@ -165,7 +160,7 @@ std::string fish_completion(std::span<const Command> commands) {
             else if (!flag->form.empty())
                 text += " -x";
             if (const std::string words = literals(flag->form); !words.empty()) text += " -a '" + words + "'";
-            text += " -d '" + quoted(brief(flag->help), "\\") + "'\n";
+            text += " -d '" + quoted(first_part(flag->help), "\\") + "'\n";
         }
     return text;
 }

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace halflit::cli {
 
@@ -13,10 +14,10 @@ inline constexpr const char* kProgramHelp = "Renders models, such as glTF, STL, 
 inline constexpr const char* kExitCodesHelp =
     "Exit codes: 0 ok, 1 negative result, 2 usage, 3 bad input, 4 cannot read or write, 5 limit hit, 6 internal error, 128+n signal n.";
 
-/// The program and its commands.
-[[nodiscard]] std::string program_help(std::span<const Command> commands, std::size_t width);
+/// The program and its commands. `all`: also those that are listed by --help-all.
+[[nodiscard]] std::string program_help(std::span<const Command> commands, bool all, std::size_t width);
 
-/// One command. `all`: with its advanced flags.
+/// One command. Without `all`, a command with usual flags has a page of these, each with the first part of its explanation.
 [[nodiscard]] std::string command_help(const Command& command, bool all, std::size_t width);
 
 /// "halflit render [FLAGS] [SCENE]"
@@ -24,5 +25,11 @@ inline constexpr const char* kExitCodesHelp =
 
 /// "-o, --output FILE"
 [[nodiscard]] std::string flag_label(const Flag& flag);
+
+/// "    halflit info part.stl": the examples, one a line, indented by so many columns.
+[[nodiscard]] std::string example_lines(std::span<const std::string> examples, std::size_t indent);
+
+/// The first part of an explanation, which is a sentence of its own.
+[[nodiscard]] std::string_view first_part(std::string_view help);
 
 }  // namespace halflit::cli

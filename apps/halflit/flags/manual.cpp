@@ -84,7 +84,7 @@ std::string program_manual(std::span<const Command> commands) {
     std::string text = page_head("halflit", kProgramHelp) + ".B halflit\n" + roff("COMMAND [FLAGS]") + "\n.br\n.B halflit\n" +
                        roff("SCENE [PICTURE] [FLAGS]") + "\n" + heading("COMMANDS");
     for (const Command& command : commands)
-        if (!command.hidden) text += item(command.name, command.help + ". See halflit-" + command.name + "(1).");
+        if (!command.is_hidden()) text += item(command.name, command.help + ". See halflit-" + command.name + "(1).");
     return text + heading("EXIT STATUS") + roff(kExitCodesHelp) + "\n";
 }
 
@@ -96,6 +96,7 @@ std::string command_manual(const Command& command) {
         text += heading(group.title);
         for (const Flag& flag : group.flags) text += item(flag_label(flag), flag.help);
     }
+    if (!command.examples.empty()) text += heading("EXAMPLES") + ".nf\n" + roff(example_lines(command.examples, 0)) + ".fi\n";
     return text + heading("EXIT STATUS") + roff(kExitCodesHelp) + "\n" + heading("SEE ALSO") + "halflit(1)\n";
 }
 
@@ -104,8 +105,9 @@ std::string markdown_page(std::span<const Command> commands) {
                        "\n\nThis page is the output of `halflit flags --markdown`; a test compares the two.\n\n" + kExitCodesHelp + "\n";
     for (std::size_t i = 0; i < commands.size(); ++i) {
         const Command& command = commands[i];
-        if (command.hidden) continue;
+        if (command.is_hidden()) continue;
         text += "\n## halflit " + command.name + "\n\n" + command.help + ".\n\n    " + usage_line(command) + "\n";
+        if (!command.examples.empty()) text += "\nExamples:\n\n" + example_lines(command.examples, 4);
         if (!command.positionals.empty()) text += "\n| argument | |\n|---|---|\n";
         for (const Positional& positional : command.positionals) text += markdown_row(positional.name, positional.help);
         text += markdown_groups(command, commands.first(std::min<std::size_t>(i, 1)));

@@ -15,7 +15,7 @@ const json_of = (report) => `${JSON.stringify(report, null, 2)}\n`;
 
 function help(command) {
   const what =
-    command === "info" ? "Describe a scene, and what drawing it requires" : "Draw a scene into a picture; without one, the demo scene";
+    command === "info" ? "Describe a scene, and what drawing it requires" : "Draw a scene into a picture; without SCENE, the demo scene";
   const lines = [what, "", "Usage: halflit SCENE [PICTURE] [FLAGS]", "       halflit info SCENE [FLAGS]"];
   lines.push("", "SCENE: a .glb, .gltf, .stl, .ply, .obj, .off or .3mf file, demo, sphere:N or lights:N; - for standard input.");
   let group = "";
