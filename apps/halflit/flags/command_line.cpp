@@ -74,7 +74,6 @@ constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
     {"--spp", "--samples"},
     {"--anti-aliasing", "--samples"},
     {"--camera-view-angle", "--fov"},
-    {"--camera-orbit", "--azimuth"},
     {"--camera-zoom-factor", "--zoom"},
     {"--camera-azimuth-angle", "--azimuth"},
     {"--camera-elevation-angle", "--elevation"},
@@ -82,18 +81,20 @@ constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
     {"--jobs", "--threads"},
     {"convert", "render"},
     {"draw", "render"},
-    {"compare", "diff"},
     {"inspect", "info"},
     {"validate", "info"},
     {"benchmark", "bench"},
 };
 
-/// " (did you mean WORD?)": a synonym among the candidates, or else the one that is spelled alike.
+/// " (did you mean WORD?)": the candidate that is spelled alike, or has a synonym that is.
 std::string meant_by(const std::string& word, const std::vector<std::string>& candidates) {
+    std::vector<std::string> known = candidates;
     for (const auto& [other, ours] : kSynonyms)
-        if (word == other && std::find(candidates.begin(), candidates.end(), ours) != candidates.end())
-            return " (did you mean " + std::string(ours) + "?)";
-    return did_you_mean(word, candidates);
+        if (std::find(candidates.begin(), candidates.end(), ours) != candidates.end()) known.emplace_back(other);
+    const std::string meant = nearest(word, known);
+    const auto* const synonym =
+        std::find_if(std::begin(kSynonyms), std::end(kSynonyms), [&](const auto& row) { return row.first == meant; });
+    return meant.empty() ? "" : " (did you mean " + (synonym != std::end(kSynonyms) ? std::string(synonym->second) : meant) + "?)";
 }
 
 std::vector<std::string> command_names(std::span<const Command> commands) {
@@ -112,14 +113,11 @@ std::vector<std::string> known_words(std::span<const Command> commands) {
     return words;
 }
 
-std::vector<std::string> flag_names(const Command* command) {
-    std::vector<std::string> names = {"--help"};
-    if (command == nullptr)
-        names.insert(names.end(), {"--version", "--self-test"});
-    else
-        names.push_back("--help-all");
-    if (command != nullptr)
-        for (const Flag* flag : flags_of(*command)) names.push_back(flag->long_name());
+/// Flags of a command. Without one, those of the program and of render, which is meant by a line that begins with a scene.
+std::vector<std::string> flag_names(const Command* command, std::span<const Command> commands) {
+    std::vector<std::string> names = {"--help", "--help-all"};
+    if (command == nullptr) names.insert(names.end(), {"--version", "--self-test"});
+    for (const Flag* flag : flags_of(command != nullptr ? *command : commands.front())) names.push_back(flag->long_name());
     return names;
 }
 
@@ -148,9 +146,10 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error, st
     if (!rest.empty() && (no_command || error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))) {
         const std::string& word = rest[0];
         const std::string name = word.substr(0, word.find('='));
-        const std::vector<std::string> flags = flag_names(command);
-        if (word.starts_with("-") && command != nullptr && std::find(flags.begin(), flags.end(), name) != flags.end())
-            message = word + " stands before the command: expected halflit " + command->name + " " + word;
+        const std::vector<std::string> flags = flag_names(command, commands);
+        if (word.starts_with("-") && std::find(flags.begin(), flags.end(), name) != flags.end())
+            message = command != nullptr ? word + " stands before the command: expected halflit " + command->name + " " + word
+                                         : word + ": no scene and no command: expected halflit SCENE [PICTURE] " + word;
         else if (word.starts_with("-"))
             message = "unknown flag " + word + meant_by(name, flags);
         else if (command == nullptr && word.find_first_of("./") != std::string::npos)
