@@ -3,13 +3,11 @@
 #include "apps/c/convert.hpp"
 #include "apps/c/scene_handle.hpp"
 #include "apps/c/versioned.hpp"
-#include "apps/engine/basics/timeout.hpp"
-#include "apps/engine/calls/call.hpp"
+#include "apps/engine/calls/call_text.hpp"
 #include "apps/engine/job/scene_source.hpp"
 #include "apps/engine/request/setting_flags.hpp"
 #include "apps/engine/request/values.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -49,50 +47,13 @@ private:
     const halflit_scene& from_;
 };
 
-/// The engine's usage errors name flags, as the program has them. Here they are names. Hyphens within a word stay.
-tl::unexpected<Error> told(const Error& error) {
-    if (error.code != ErrorCode::usage) return tl::unexpected<Error>(error);
-    std::string message;
-    for (std::size_t at = 0; at < error.message.size(); ++at) {
-        const bool begins = message.empty() || message.back() == ' ';
-        if (begins && error.message.compare(at, 2, "--") == 0 && at + 2 < error.message.size() && error.message[at + 2] != ' ') at += 2;
-        message += error.message[at];
-    }
-    return tl::unexpected<Error>({error.code, std::move(message)});
-}
-
-/// The model of a call: that of its arguments, a caller's scene in its place, or any, for a check.
-enum class ModelOf { arguments, caller, any };
-
-Result<engine::Call> call_of(const char* name, const char* given, ModelOf model) {
-    const auto row = engine::find_call(name);
-    if (!row) return tl::unexpected<Error>(row.error());
-    auto arguments = nlohmann::json::parse(given != nullptr ? given : "{}", nullptr, false);
-    if (!arguments.is_object()) return fail(ErrorCode::usage, "arguments: expected a JSON object");
-    engine::Call call = (*row)->make();
-    constexpr const char* kNoFile = "demo";
-    const auto& models = (*row)->required;
-    const bool takes_path = std::find(models.begin(), models.end(), "path") != models.end();
-    if (model == ModelOf::caller) {
-        if (!takes_path || arguments.contains("path"))
-            return fail(ErrorCode::usage, std::string(name) + ": expected either a scene or the path of a model");
-        arguments["path"] = kNoFile;  // a keeper has the scene
-    } else if (model == ModelOf::any && takes_path && !arguments.contains("path")) {
-        arguments["path"] = kNoFile;
-    }
-    const auto as_given = [](const std::string& path, engine::PathUse /*use*/) { return Result<std::string>(path); };
-    if (const auto read = engine::read_arguments(**row, call, arguments, as_given); !read) return tl::unexpected<Error>(read.error());
-    return call;
-}
-
 Result<halflit_answer> answer_of(const char* name, const char* arguments, const halflit_scene* scene) {
-    const auto call = call_of(name, arguments, scene != nullptr ? ModelOf::caller : ModelOf::arguments);
+    const auto call = engine::call_of_text(name, arguments, scene != nullptr ? engine::ModelOf::caller : engine::ModelOf::arguments);
     if (!call) return tl::unexpected<Error>(call.error());
     std::optional<SceneOfHandle> keeper;
     if (scene != nullptr) keeper.emplace(*scene);
-    for (engine::RenderOptions* const options : call->scenes) options->keeper = keeper ? &*keeper : nullptr;
-    auto answer = engine::within_time(call->scenes.front()->timeout_s, call->run);
-    if (!answer) return told(answer.error());
+    auto answer = engine::answer_call(*call, keeper ? &*keeper : nullptr);
+    if (!answer) return tl::unexpected<Error>(answer.error());
     halflit_answer made{engine::to_text(answer->report, true), {}, std::move(answer->picture), answer->good};
     for (const std::string& note : answer->notes) made.notes.append(note).append("\n");
     return made;
@@ -129,11 +90,8 @@ int32_t halflit_call(const char* name, const char* arguments, const halflit_scen
 
 int32_t halflit_call_check(const char* name, const char* arguments) {
     return guarded(__func__, {{name, "name"}}, [&]() -> Result<void> {
-        const auto call = call_of(name, arguments, ModelOf::any);
-        if (!call) return tl::unexpected<Error>(call.error());
-        const auto checked = call->check ? call->check() : Result<void>();
-        if (!checked) return told(checked.error());
-        return {};
+        const auto call = engine::call_of_text(name, arguments, engine::ModelOf::any);
+        return call ? engine::check_call(*call) : tl::unexpected<Error>(call.error());
     });
 }
 

@@ -9,17 +9,17 @@ const [source, bin, libraries, output] = process.argv.slice(2);
 const text = (...parts) => readFileSync(join(...parts), "utf8");
 rmSync(output, { recursive: true, force: true });
 mkdirSync(join(output, "licences"), { recursive: true });
-cpSync(join(source, "apps/npm/package"), output, { recursive: true });
+for (const folder of ["apps/npm/package", "apps/web/module"]) cpSync(join(source, folder), output, { recursive: true });
 for (const name of ["README.md"]) cpSync(join(source, "apps/npm", name), join(output, name));
 cpSync(join(source, "LICENSE"), join(output, "LICENSE"));
 
 // ---- the modules' own code, as an ES module -----------------------------------------------------------------------------
-const glue = text(bin, "halflit_npm_main.js");
+const glue = text(bin, "halflit_module.js");
 writeFileSync(join(output, "module.js"), `// Emscripten's code around halflit.wasm.
 const halflit_module = ${module_code(glue)};
 export default halflit_module;
 `);
-cpSync(join(bin, "halflit_npm_main.wasm"), join(output, "halflit.wasm"));
+cpSync(join(bin, "halflit_module.wasm"), join(output, "halflit.wasm"));
 cpSync(join(bin, "halflit_wasm128.wasm"), join(output, "halflit_wasm128.wasm"));
 
 // ---- the flags, from the module's own table -----------------------------------------------------------------------------

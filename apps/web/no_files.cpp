@@ -1,9 +1,8 @@
-// Stand-ins for what the command line asks its system for and a page does not have.
-#include "apps/engine/basics/file_names.hpp"
+// Stand-ins for what the engine asks its system for and a host of the module does not have. Files are those of dropped_files.cpp.
 #include "apps/engine/job/scene_source.hpp"
-#include "apps/engine/request/camera_file.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
+#include "apps/io/platform/handles.hpp"
 #include "apps/io/platform/process.hpp"
 #include "apps/io/platform/streams.hpp"
 
@@ -18,6 +17,14 @@ std::string errno_text(int error) { return std::strerror(error); }
 
 std::size_t last_separator(std::string_view path) { return path.rfind('/'); }
 
+int status_of(const std::string& /*path*/, FileStatus& /*status*/) { return ENOENT; }
+int status_of(NativeHandle /*handle*/, FileStatus& /*status*/) { return ENOENT; }
+std::string whole_path(const std::string& path) { return path; }
+std::vector<std::string> names_in(const std::string& /*folder*/, std::size_t /*most*/) { return {}; }
+Handle open_to_read(const std::string& /*path*/) { return {}; }
+std::ptrdiff_t read_some(NativeHandle /*handle*/, void* /*into*/, std::size_t /*bytes*/) { return -1; }
+int close_handle(NativeHandle /*handle*/) { return EBADF; }
+
 bool is_terminal(Stream /*stream*/) { return false; }
 
 std::int64_t peak_memory() { return static_cast<std::int64_t>(emscripten_get_heap_size()); }  // never shrinks
@@ -28,19 +35,8 @@ int limit_memory(std::size_t /*bytes*/) { return ENOSYS; }
 
 namespace halflit::engine {
 
-bool is_file(const std::string& /*path*/) { return false; }
-
-bool is_model_name(std::string_view /*path*/) { return false; }
-
-std::string did_you_mean_file(const std::string& /*path*/, std::vector<std::string> /*names*/) { return ""; }
-
 Result<std::vector<std::byte>> read_standard_input(std::size_t /*max_bytes*/, double /*time_limit_s*/) {
     return fail(ErrorCode::usage, "standard input: a page has none");
-}
-
-Result<void> settle_cameras(RenderOptions& options) {
-    if (options.camera_file.empty()) return {};
-    return fail(ErrorCode::usage, "--camera-file: a page reads no file of cameras");
 }
 
 }  // namespace halflit::engine

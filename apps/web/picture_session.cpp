@@ -5,109 +5,41 @@
 #include "apps/web/session_report.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 namespace halflit::web {
-namespace {
-
-/// Flags that change neither what is loaded nor how it is lit.
-constexpr std::string_view kSettingsFlags[] = {"--camera",
-                                               "--camera-position",
-                                               "--camera-target",
-                                               "--fov",
-                                               "--azimuth",
-                                               "--elevation",
-                                               "--zoom",
-                                               "--lobe",
-                                               "--wrap",
-                                               "--power",
-                                               "--normalize",
-                                               "--specular",
-                                               "--samples",
-                                               "--point-size",
-                                               "--line-width",
-                                               "--shading",
-                                               "--shadows",
-                                               "--sky-shadows",
-                                               "--contact-shadow",
-                                               "--specular-normalize",
-                                               "--sh-order",
-                                               "--tonemap",
-                                               "--max-error",
-                                               "--accuracy",
-                                               "--shadow-fade",
-                                               "--soft-shadow-maps",
-                                               "--shadow-terminator",
-                                               "--texture-filter",
-                                               "--anisotropy",
-                                               "--line-width",
-                                               "--shadow-memory",
-                                               "--normal-scale",
-                                               "--view",
-                                               "--fit",
-                                               "--ortho",
-                                               "--orthographic",
-                                               "--camera-orbit",
-                                               "--edge-color"};
-/// Flags that change how it is lit, or the picture's size, by which the maps of its shadows are chosen. For all others the scene is loaded
-/// anew.
-constexpr std::string_view kLightFlags[] = {"--light",      "--no-scene-lights", "--ambient",  "--env",
-                                            "--env-rotate", "--env-sun",         "--sun-size", "--lamp-size",
-                                            "--exposure",   "--background",      "--size",     "--shadow-size"};
-
-bool is_one_of(std::string_view flag, std::span<const std::string_view> flags) {
-    return std::find(flags.begin(), flags.end(), flag) != flags.end();
-}
-
-/// The flags that load the scene, and those that light it, each with its value.
-struct Keys {
-    std::string scene, light;
-};
-
-Keys keys_of(const std::string& scene, const std::vector<std::string>& flags) {
-    Keys keys{scene, ""};
-    std::string* key = nullptr;
-    for (const std::string& word : flags) {
-        if (word.starts_with("--"))
-            key = is_one_of(word, kSettingsFlags) ? nullptr : is_one_of(word, kLightFlags) ? &keys.light : &keys.scene;
-        if (key != nullptr) key->append("\n").append(word);
-    }
-    return keys;
-}
-
-}  // namespace
-
 void PictureSession::forget_scene() { job_.reset(); }
 
 Result<void> PictureSession::apply(const std::string& scene, const std::vector<std::string>& flags) {
     const engine::Stopwatch watch;
-    auto options = engine::parse_render_flags(flags);
-    if (!options) return tl::unexpected(options.error());
-    if (options->film.views.size() > 1) return fail(ErrorCode::usage, "--view: one side for each picture");
-    options->scene = scene;
-    options->execution.threads = 1;
-    options->may_want_reference = true;
+    engine::RenderOptions options;
+    const auto groups = engine::render_flags(options, kUsualSize);
+    if (const auto read = engine::read_flags(groups, flags); !read) return read;
+    if (options.film.views.size() > 1) return fail(ErrorCode::usage, "--view: one side for each picture");
+    options.scene = scene;
+    options.execution.threads = 1;
+    options.may_want_reference = true;
     constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // of the 2 GB that the module may take
-    std::uint64_t& most = options->load.limits.max_geometry_bytes;
+    std::uint64_t& most = options.load.limits.max_geometry_bytes;
     most = std::min(most, kMostBytes);
-    Keys keys = keys_of(scene, flags);
-    if (job_ && keys.scene == scene_flags_) {
-        const bool same_light = keys.light == light_flags_;
+    std::string scene_flags = scene + "\n" + engine::lines_of_stage(groups, flags, engine::Stage::load);
+    std::string light_flags = engine::lines_of_stage(groups, flags, engine::Stage::light);
+    if (job_ && scene_flags == scene_flags_) {
+        const bool same_light = light_flags == light_flags_;
         light_flags_ = "?";  // until it is done
-        if (const auto changed = engine::change_job(*job_, *options, kUsualSize, same_light); !changed) {
+        if (const auto changed = engine::change_job(*job_, options, kUsualSize, same_light); !changed) {
             job_.reset();
             return changed;
         }
     } else {
         job_.reset();  // its memory first
-        auto job = engine::make_render_job(*options, kUsualSize);
+        auto job = engine::make_render_job(options, kUsualSize);
         if (!job) return tl::unexpected(job.error());
         job_.emplace(std::move(*job));
-        scene_flags_ = std::move(keys.scene);
+        scene_flags_ = std::move(scene_flags);
     }
-    light_flags_ = std::move(keys.light);
-    job_->execution.time_limit_s = options->timeout_s;  // of this picture, beside what the loading took
+    light_flags_ = std::move(light_flags);
+    job_->execution.time_limit_s = options.timeout_s;  // of this picture, beside what the loading took
     apply_ms_ += watch.ms();
     return {};
 }

@@ -21,7 +21,7 @@ export function must(words, options) {
 
 // Installs the package's tarball into an empty project. Returns the tarball's size and what the package exports.
 export async function begin() {
-  if (!existsSync(join(build, "bin/halflit_npm_main.wasm"))) {
+  if (!existsSync(join(build, "bin/halflit_module.wasm"))) {
     console.log("skipped: the package was not built, as Emscripten or the sources of the libraries are not there");
     process.exit(kSkipped);
   }

@@ -51,8 +51,7 @@ set(subfolders
     "apps/c/=apps/(halflit|viewer|lab|web|npm)/"
     "apps/lab/=apps/(c|viewer|web|npm)/"
     "apps/viewer/=apps/(c|halflit|lab|web|npm)/"
-    "apps/web/=apps/(c|halflit|lab)/"
-    "apps/npm/=apps/(c|halflit|lab|viewer)/")
+    "apps/web/=apps/(c|halflit|lab|npm)/")
 set(failures "")
 set(file_count 0)
 

@@ -147,11 +147,11 @@ async function test_worker() {
     HEAPU8: memory, lengthBytesUTF8: () => 8, stringToUTF8: () => {}, UTF8ToString: (at) => ({ 1: "{}", 2: "a.glb: damaged", 3: "scalar" })[at] ?? "",
     _halflit_allocate: () => place, _halflit_free: () => {}, _halflit_isa: () => 3, _halflit_wanted: () => 0, _halflit_add_file: () => place,
     _halflit_open: () => opened.push(opened.length + 1), _halflit_close: (handle) => closed.push(handle), _halflit_prepare: () => code, _halflit_draw: () => code,
-    _halflit_report: () => 0, _halflit_text: () => (code ? 2 : 1), _halflit_pixels: () => 0, _halflit_width: () => 1, _halflit_height: () => 1,
+    _halflit_report: () => 0, _halflit_page_report: () => 0, _halflit_text: () => (code ? 2 : 1), _halflit_pixels: () => 0, _halflit_width: () => 1, _halflit_height: () => 1,
   };
-  const of_package = ["kernels", "engine"].map((name) => part_of_script(readFileSync(join(folder, `../../npm/package/${name}.js`), "utf8"))).join("\n");
+  const of_module = ["kernels", "engine"].map((name) => part_of_script(readFileSync(join(folder, `../module/${name}.js`), "utf8"))).join("\n");
   const globals = { WebAssembly, TextEncoder, ArrayBuffer, halflit_module: async () => core, postMessage: (answer) => answers.push(answer), flags: [], version: "", pixelEpoch: 0, onmessage: null };
-  const worker = load(["worker.js"], globals, ["onmessage", "queue"], of_package);
+  const worker = load(["worker.js"], globals, ["onmessage", "queue"], of_module);
   const ask = async (task) => {
     worker.onmessage({ data: { ...task, id: answers.length } });
     await worker.queue;

@@ -39,20 +39,22 @@ std::vector<const Flag*> flags_of(const Command& command) {
     return flags;
 }
 
-Result<void> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words) {
-    const auto find_flag = [&](const std::string& name) -> const Flag* {
-        for (const FlagGroup& group : groups)
-            for (const Flag& flag : group.flags) {
-                const std::vector<std::string> names = words_of(flag.names, ',');
-                if (std::find(names.begin(), names.end(), name) != names.end()) return &flag;
-            }
-        return nullptr;
-    };
+namespace {
+
+/// Calls use(group, flag, name, value) for each flag among the words, until one fails.
+template <class Use>
+Result<void> for_each_flag(const std::vector<FlagGroup>& groups, std::span<const std::string> words, const Use& use) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
         const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
         const std::string name = word.substr(0, equals);
-        const Flag* const flag = find_flag(name);
+        const Flag* flag = nullptr;
+        const FlagGroup* of = nullptr;
+        for (const FlagGroup& group : groups)
+            for (const Flag& one : group.flags) {
+                const std::vector<std::string> names = words_of(one.names, ',');
+                if (flag == nullptr && std::find(names.begin(), names.end(), name) != names.end()) flag = &one, of = &group;
+            }
         if (flag == nullptr) {
             std::vector<std::string> names;
             for (const FlagGroup& group : groups)
@@ -63,9 +65,27 @@ Result<void> read_flags(const std::vector<FlagGroup>& groups, std::span<const st
         if (assigned && !takes_value) return fail(ErrorCode::usage, name + ": takes no value");
         if (takes_value && !assigned && i + 1 == words.size()) return fail(ErrorCode::usage, name + ": expected a value");
         const std::string value = !takes_value ? "" : assigned ? word.substr(equals + 1) : words[++i];
-        if (const auto read = flag->read(value); !read) return fail(ErrorCode::usage, name + ": " + read.error().message);
+        if (const auto used = use(*of, *flag, name, value); !used) return used;
     }
     return {};
+}
+
+}  // namespace
+
+Result<void> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words) {
+    return for_each_flag(groups, words, [](const FlagGroup&, const Flag& flag, const std::string& name, const std::string& value) {
+        return flag.read(value).map_error([&](const Error& error) { return Error{ErrorCode::usage, name + ": " + error.message}; });
+    });
+}
+
+std::string lines_of_stage(const std::vector<FlagGroup>& groups, std::span<const std::string> words, Stage stage) {
+    std::string lines;
+    const auto add = [&](const FlagGroup& group, const Flag& flag, const std::string&, const std::string& value) -> Result<void> {
+        if (flag.stage.value_or(group.stage) == stage) lines += flag.long_name() + "\n" + value + "\n";
+        return {};
+    };
+    static_cast<void>(for_each_flag(groups, words, add));
+    return lines;
 }
 
 void remove_flags(std::vector<FlagGroup>& groups, std::span<const std::string_view> long_names) {

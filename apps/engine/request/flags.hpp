@@ -3,7 +3,9 @@
 
 #include "halflit/error.hpp"
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,12 +27,16 @@ struct Positional {
     std::string usage{};    ///< in the usage line; empty: from the name
 };
 
+/// The first stage that is done anew where a value changes: a model is loaded, lit and drawn.
+enum class Stage : std::uint8_t { load, light, draw };
+
 struct Flag {
     std::string names;  ///< "-o,--output"; the long name is last
     std::string form;   ///< the value: "off|on", "FILE"; words in capitals stand for something. Empty: a switch, which takes no value
     std::string help;
     ReadValue read;         ///< called for each use; for a switch with an empty text
-    bool repeated = false;  ///< may be given several times
+    bool repeated = false;         ///< may be given several times
+    std::optional<Stage> stage{};  ///< empty: that of the group
 
     /// "--output"
     [[nodiscard]] std::string long_name() const { return names.substr(names.rfind(',') + 1); }
@@ -39,6 +45,7 @@ struct Flag {
 struct FlagGroup {
     std::string title;
     std::vector<Flag> flags;
+    Stage stage = Stage::load;
 };
 
 struct Command {
@@ -109,6 +116,9 @@ template <class Target, class Parser>
 
 /// Reads flags as words: each by one of its names, its value as the next word or behind '='. Errors begin with the flag's name.
 [[nodiscard]] Result<void> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words);
+
+/// The flags of this stage among the words, each with its value, one a line. Words that are no flags end it.
+[[nodiscard]] std::string lines_of_stage(const std::vector<FlagGroup>& groups, std::span<const std::string> words, Stage stage);
 
 /// Removes the flags of these long names.
 void remove_flags(std::vector<FlagGroup>& groups, std::span<const std::string_view> long_names);

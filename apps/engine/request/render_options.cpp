@@ -63,6 +63,11 @@ Result<void> read_background(RenderOptions& options, const std::string& text) {
     return assign(options.background_linear, parse_color(text));
 }
 
+Flag of_stage(Stage stage, Flag flag) {
+    flag.stage = stage;
+    return flag;
+}
+
 FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
     Settings& s = o.settings;
     return {
@@ -80,7 +85,8 @@ FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
          {"--exposure", "EV|auto[+EV]",
           "Multiply all light by 2^EV; auto: chosen from the file's lights or the environment (default); auto+1: one stop brighter than "
           "that, auto-0.5: half a stop darker",
-          [&o](const std::string& text) { return read_exposure(o, text); }}}};
+          [&o](const std::string& text) { return read_exposure(o, text); }}},
+        Stage::light};
 }
 
 /// A flag of the view of the whole scene. Sets `given`.
@@ -156,9 +162,8 @@ FlagGroup camera_flags(RenderOptions& o) {
           "Read cameras from this file instead of the model: a report of look or render, JSON like its `camera`, transforms.json of NeRF, "
           "COLMAP's images.txt, or a glTF file. Their coordinates and axes are those of the model's file",
           read_text(o.camera_file)},
-         {"--ground", "", "Add a ground below the scene that shows only shadows", set_to(o.ground)},
-         {"--up", form_of(kUpAxisNames),
-          fmt::format(
+         of_stage(Stage::load, {"--ground", "", "Add a ground below the scene that shows only shadows", set_to(o.ground)}),
+         of_stage(Stage::load, {"--up", form_of(kUpAxisNames), fmt::format(
               "Axis of the model that points up (default {}, and z for STL and 3MF). Views, the ground and the light from above follow it; "
               "coordinates stay those of the file",
               name_of(UpAxis::y, kUpAxisNames)),
@@ -167,7 +172,8 @@ FlagGroup camera_flags(RenderOptions& o) {
               const auto read = named(up, kUpAxisNames)(plain_axis(text));
               if (read) o.load.up = up;
               return read;
-          }}}};
+          }})},
+        Stage::draw};
 }
 
 FlagGroup pose_flags(RenderOptions& o) {
@@ -270,7 +276,8 @@ FlagGroup light_flags(RenderOptions& o) {
           .repeated = true},
          {"--no-scene-lights", "", "Leave out the scene's own lights and ambient light", set_to(o.scene_lights, false)},
          {"--ambient", "R,G,B", "Ambient light: the same from all directions, linear RGB",
-          [&o](const std::string& text) { return read_ambient(o.ambient_linear, text); }}}};
+          [&o](const std::string& text) { return read_ambient(o.ambient_linear, text); }}},
+        Stage::light};
 }
 
 FlagGroup environment_flags(RenderOptions& o) {
@@ -287,7 +294,8 @@ FlagGroup environment_flags(RenderOptions& o) {
               number(o.environment_rotate_deg, -3600.0f, 3600.0f)},
              {"--env-sun", form_of(kOffOn),
               fmt::format("Replace suns in the environment by directional lights (default {})", name_of(o.environment_sun, kOffOn)),
-              named(o.environment_sun, kOffOn)}}};
+              named(o.environment_sun, kOffOn)}},
+            Stage::light};
 }
 
 FlagGroup shadow_flags(RenderOptions& o) {
@@ -298,26 +306,27 @@ FlagGroup shadow_flags(RenderOptions& o) {
           "sun has 0.27)",
           number(o.sun_size_deg, 0.0f, 40.0f)},
          {"--lamp-size", "R", "Soft shadows of point and spot lights: their radius, in the scene's units (default 0)",
-          number(o.lamp_size, 0.0f, 1e9f)}}};
+          number(o.lamp_size, 0.0f, 1e9f)}},
+            Stage::light};
 }
 
 FlagGroup surface_flags(RenderOptions& o) {
     return {
         "Surface",
-        {{"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe: how reflected light depends on the angle to the light (default lambert)",
+        {of_stage(Stage::draw, {"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe: how reflected light depends on the angle to the light (default lambert)",
           [&o](const std::string& text) -> Result<void> {
               o.lobe_name = text;
               return {};
-          }},
-         {"--wrap", "W",
+          }}),
+         of_stage(Stage::draw, {"--wrap", "W",
           fmt::format("Wrap, 0 to {}: light reaches surfaces where the cosine between normal and light is above -W", kMaxLobeWrap),
-          number(o.lobe.wrap, 0.0f, kMaxLobeWrap)},
-         {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)},
-         {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
+          number(o.lobe.wrap, 0.0f, kMaxLobeWrap)}),
+         of_stage(Stage::draw, {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)}),
+         of_stage(Stage::draw, {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
           [&o](const std::string&) -> Result<void> {
               o.lobe.normalize = true;
               return {};
-          }},
+          }}),
          {"--own-lobes", form_of(kOffOn),
           fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power apply to all",
                       name_of(o.own_lobes, kOffOn)),
@@ -391,7 +400,8 @@ FlagGroup line_flags(RenderOptions& o) {
     return {"Lines",
             {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)", [&o](const std::string& text) {
                   return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
-              }}}};
+              }}},
+            Stage::draw};
 }
 
 }  // namespace

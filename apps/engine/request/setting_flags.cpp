@@ -75,13 +75,17 @@ std::string setting_text(const Setting& setting, const Settings& settings) {
 void add_setting_flags(FlagGroup& group, Settings& settings, std::vector<std::string_view>& given) {
     for (const Setting& setting : raster::kSettings)
         if (setting.group == group.title && !setting.flag.empty())
-            group.flags.push_back({std::string(setting.flag), form_of(setting), help_of(setting, settings),
-                                   [&settings, &given, &setting](const std::string& text) {
-                                       given.push_back(setting.name);
-                                       const auto value = read_value(setting.values, text);
-                                       if (value) setting.set(settings, *value);
-                                       return value.map([](double) {});
-                                   }});
+            group.flags.push_back({.names = std::string(setting.flag),
+                                   .form = form_of(setting),
+                                   .help = help_of(setting, settings),
+                                   .read =
+                                       [&settings, &given, &setting](const std::string& text) {
+                                           given.push_back(setting.name);
+                                           const auto value = read_value(setting.values, text);
+                                           if (value) setting.set(settings, *value);
+                                           return value.map([](double) {});
+                                       },
+                                   .stage = Stage::draw});
 }
 
 std::string differing_flags(const Settings& now, const Settings& started) {

@@ -75,6 +75,20 @@ export class Picture {
   encode(format: "png" | "jpg" | "jpeg" | "bmp" | "tga"): Bytes;
 }
 
+/** Flags of a command by their names. */
+export type CallOptions = Record<string, unknown>;
+
+/** What a call tells. */
+export interface Answer {
+  /** false: a view with a fault, versions that differ, a blank picture. */
+  good: boolean;
+  /** Lines for people: faults first. */
+  notes: string[];
+  report: Record<string, unknown>;
+  /** null where the call draws none. */
+  picture: Picture | null;
+}
+
 /** A loaded model. It stays prepared from one picture to the next. */
 export class Scene implements Disposable {
   private constructor();
@@ -84,6 +98,21 @@ export class Scene implements Disposable {
   info(options?: (RenderOptions & { parts?: boolean }) | null): Promise<Info>;
   /** The text that `halflit info` prints; `json`: as one JSON object. */
   describe(options?: (RenderOptions & { parts?: boolean; json?: boolean }) | null): Promise<string>;
+  /** One of the calls of the engine by its name: look, section, certify, measure, explain, compare, info. `given`: the flags of the program's
+   *  command. */
+  call(name: string, given?: CallOptions | null): Promise<Answer>;
+  /** Labelled views on one sheet, and what each shows of each part. */
+  look(given?: CallOptions | null): Promise<Answer>;
+  /** The same with planes that cut, as "x=50%". */
+  section(section: string | string[], given?: CallOptions | null): Promise<Answer>;
+  /** Which triangles no view shows. */
+  certify(given?: CallOptions | null): Promise<Answer>;
+  /** Box, area, volume and bodies of the model and of its parts. */
+  measure(given?: CallOptions | null): Promise<Answer>;
+  /** What made a pixel, [x, y], or each of several. */
+  explain(pixel: [number, number] | Array<[number, number]>, given?: CallOptions | null): Promise<Answer>;
+  /** The model and another of the scene's files. */
+  compare(other: string, given?: CallOptions | null): Promise<Answer>;
   /** Gives its memory back, as `using scene = await load(model)` does at the end of its block. */
   free(): void;
   [Symbol.dispose](): void;

@@ -1,4 +1,4 @@
-// Draws, in a thread of its own, by the npm package's engine, which assemble.mjs puts ahead of this. One message is answered at a time.
+// Draws, in a thread of its own, by module/engine.js, which assemble.mjs puts ahead of this. One message is answered at a time.
 let queue = Promise.resolve();
 let files = new Map();  // by name, a File of the page or its bytes
 let opened = null;      // {name, scene}
@@ -19,9 +19,11 @@ async function scene_of({ scene: name, flags }) {
   return scene;
 }
 
+const page_report = (core, handle) => core._halflit_page_report(handle);
+
 async function picture_of(task) {
   const scene = await scene_of(task), key = [task.scene, ...task.flags].join("\n");
-  if (last?.key !== key) last = { key, picture: await scene.render({ flags: task.flags }) };
+  if (last?.key !== key) last = { key, picture: await scene.drawn({ flags: task.flags }, (core, handle, words) => core._halflit_draw(handle, words), page_report) };
   return last.picture;
 }
 
@@ -37,7 +39,7 @@ const tasks = {
   draw: async (task) => answer_of(await picture_of(task)),
   async compare(task) {
     const scene = await scene_of(task);
-    return answer_of(await scene.drawn({ flags: task.flags }, (core, handle, words) => core._halflit_compare(handle, words)));
+    return answer_of(await scene.drawn({ flags: task.flags }, (core, handle, words) => core._halflit_compare(handle, words), page_report));
   },
   png: async (task) => ({ file: (await picture_of(task)).png() }),
   lobe: ({ wrap, power, normalize, bands }) =>

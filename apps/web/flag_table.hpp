@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace halflit::npm {
+namespace halflit::web {
 
 /// {"version", "pixel_epoch", "flags": [{"names", "form", "help", "group", "repeated"}, ...]}: those that mean something to the module.
 [[nodiscard]] std::string flag_table();
 
-}  // namespace halflit::npm
+}  // namespace halflit::web

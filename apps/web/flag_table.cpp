@@ -1,4 +1,4 @@
-#include "apps/npm/flag_table.hpp"
+#include "apps/web/flag_table.hpp"
 
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/request/render_options.hpp"
@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-namespace halflit::npm {
+namespace halflit::web {
 namespace {
 
 /// Flags of processes, folders and cores, which a module has none of.
@@ -31,4 +31,4 @@ std::string flag_table() {
     return engine::to_text({{"version", version()}, {"pixel_epoch", kPixelEpoch}, {"flags", std::move(flags)}}, true);
 }
 
-}  // namespace halflit::npm
+}  // namespace halflit::web

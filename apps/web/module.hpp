@@ -1,4 +1,4 @@
-// Shared by the sources whose functions JavaScript calls: module.cpp, which the page and the npm package both have, and what each adds.
+// Shared by the sources whose functions JavaScript calls: module.cpp, page_module.cpp and package_module.cpp.
 // A scene is a handle. Texts are UTF-8 and end with a zero byte; what is returned lives until the next call for that scene.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The part of the page's module beside apps/npm/module.cpp: its own short report, comparisons with the reference, and lobes.
-#include "apps/npm/module.hpp"
+// The part of the module for the page: its own short report, comparisons with the reference, and lobes.
+#include "apps/web/module.hpp"
 #include "apps/web/session_report.hpp"
 #include "halflit/lobe.hpp"
 #include "sh/order.hpp"
@@ -15,8 +15,8 @@ std::string json;
 
 extern "C" {
 
-/// As text: the report of the last picture or comparison.
-EMSCRIPTEN_KEEPALIVE int halflit_report(Handle* handle) {
+/// As text: the page's report of the last picture or comparison.
+EMSCRIPTEN_KEEPALIVE int halflit_page_report(Handle* handle) {
     return web::attempt(handle->text, [&]() -> Result<void> {
         handle->text = handle->session.report();
         return {};

@@ -1,5 +1,5 @@
-// The functions that engine.js of the npm package calls, for the package and for the page.
-#include "apps/npm/module.hpp"
+// The functions that module/engine.js calls, for the page and the npm package.
+#include "apps/web/module.hpp"
 
 #include "apps/engine/basics/spelling.hpp"
 #include "apps/web/kernels_apart.hpp"

@@ -149,6 +149,13 @@ for (const flag of flags)
   for (const name of flag.names)
     if (name.startsWith("--")) for (const key of [camel(name), name, name.slice(2)]) flag_of.set(key, flag);
 
+// Arguments of a call: flags without the hyphens at their begin.
+function call_arguments(given) {
+  const { width, height, ...others } = given, made = {};
+  for (const [key, value] of Object.entries(others)) made[flag_of.get(key)?.names.at(-1).slice(2) ?? key] = value;
+  return width === undefined ? made : { ...made, size: `${width}x${height}` };
+}
+
 const kOwn = new Set(["width", "height", "flags", "files", "name"]);
 const is_bytes = (value) => value instanceof ArrayBuffer || ArrayBuffer.isView(value);
 
@@ -235,14 +242,13 @@ function add_file(core, handle, name, bytes, of_scene) {
 // ---- pictures -----------------------------------------------------------------------------------------------------------
 export class Picture {
   #core;
-  // The scene's text is the report.
-  constructor(core, handle) {
+  constructor(core, width, height, place, report) {
     this.#core = core;
-    this.width = core._halflit_width(handle);
-    this.height = core._halflit_height(handle);
-    this.pixels = new Uint8ClampedArray(copied(core, core._halflit_pixels(handle), 4 * this.width * this.height).buffer);
-    this.report = JSON.parse(core.UTF8ToString(core._halflit_text(handle)));
-    this.hash = this.report.pixel_hash;
+    this.width = width;
+    this.height = height;
+    this.pixels = new Uint8ClampedArray(copied(core, place, 4 * width * height).buffer);
+    this.report = report;
+    this.hash = report.pixel_hash;
   }
   encode(format) {
     if (![...kFormats, "jpeg"].includes(format))
@@ -276,11 +282,12 @@ const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new Fina
 export const is_built_in = (scene) => /^(demo$|sphere:|lights:)/.test(scene);
 
 export class Scene {
-  #core; #handle; #defaults; #resolve = null; #asked = new Set(); #environment = null; #environments = 0;
+  #core; #handle; #name; #defaults; #resolve = null; #asked = new Set(); #environment = null; #environments = 0;
 
-  constructor(core, handle, defaults) {
+  constructor(core, handle, name, defaults) {
     this.#core = core;
     this.#handle = handle;
+    this.#name = name;
     this.#defaults = defaults;
     if (typeof defaults.files === "function") this.#resolve = defaults.files;
     kForgotten?.register(this, { core, handle }, this);
@@ -300,7 +307,7 @@ export class Scene {
     const entries = [...(files instanceof Map ? files : Object.entries(files))];
     const listed = await Promise.all(entries.map(async ([at, file]) => [at, await bytes_of(file)]));
     const handle = call(core, () => with_text(core, name, (text) => core._halflit_open(text)));
-    const scene = new Scene(core, handle, options);
+    const scene = new Scene(core, handle, name, options);
     try {
       call(core, () => {
         if (bytes) add_file(core, handle, name, bytes, true);
@@ -368,16 +375,43 @@ export class Scene {
     return this.drawn(options, (core, handle, words) => core._halflit_draw(handle, words));
   }
 
-  // draw: a function of the module; its answer is an exit code.
-  async drawn(options, draw) {
+  // draw, report: functions of the module; their answers are exit codes.
+  async drawn(options, draw, report = (core, handle) => core._halflit_report(handle)) {
     let picture = null;
     await this.#do({ ...this.#defaults, ...options_of(options) }, (words) => {
-      const code = draw(this.#core, this.#live(), words) || this.#core._halflit_report(this.#handle);
-      if (code === 0) picture = new Picture(this.#core, this.#handle);
+      const core = this.#core, handle = this.#live(), code = draw(core, handle, words) || report(core, handle);
+      if (code !== 0) return code;
+      const told = JSON.parse(core.UTF8ToString(core._halflit_text(handle)));
+      picture = new Picture(core, core._halflit_width(handle), core._halflit_height(handle), core._halflit_pixels(handle), told);
       return code;
     });
     return picture;
   }
+
+  // One of the engine's calls by its name, as "look"; arguments: the flags of the program's command, as options have them.
+  async call(name, given) {
+    let answer = null;
+    const args = options_of(given);
+    await this.#do(this.#defaults, () => {
+      const core = this.#core, handle = this.#live();
+      const text_of_arguments = JSON.stringify(call_arguments(args));
+      const code = with_text(core, String(name), (of) => with_text(core, text_of_arguments, (text) => core._halflit_call(handle, of, text)));
+      if (code !== 0) return code;
+      answer = JSON.parse(core.UTF8ToString(core._halflit_text(handle)));
+      const place = core._halflit_call_pixels();
+      answer.picture = null;
+      if (place) answer.picture = new Picture(core, core._halflit_call_width(), core._halflit_call_height(), place, answer.report);
+      return code;
+    });
+    return answer;
+  }
+  look(given) { return this.call("look", given); }
+  section(section, given) { return this.call("section", { ...options_of(given), section }); }
+  certify(given) { return this.call("certify", given); }
+  measure(given) { return this.call("measure", given); }
+  explain(pixel, given) { return this.call("explain", { ...options_of(given), pixel }); }
+  // The scene's model with another file of the scene: files: {"new.stl": bytes}.
+  compare(other, given) { return this.call("compare", { ...options_of(given), a: this.#name, b: other }); }
 
   async #described(options, json, parts) {
     let text = "";
