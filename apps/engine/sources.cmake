@@ -20,3 +20,10 @@ set(HALFLIT_ENGINE_SERVER calls/answer_limits calls/kept_scenes)
 foreach(part PIXELS WORDS JSON FILMS SYSTEM SERVER)
     list(TRANSFORM HALFLIT_ENGINE_${part} APPEND .cpp)
 endforeach()
+
+# The font becomes a list of bytes that lettering.cpp includes.
+set(font ${CMAKE_CURRENT_LIST_DIR}/fonts/dejavu_sans.ttf)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${font})
+file(READ ${font} font_bytes HEX)
+string(REGEX REPLACE "(..)" "0x\\1," font_bytes "${font_bytes}")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/dejavu_sans.inc CONTENT "${font_bytes}\n" @ONLY)

@@ -50,7 +50,7 @@ halflit_web_library(jpeg FOLDERS ${made}/jpeg ${jpeg} SOURCES ${sources})
 
 halflit_web_source(libdeflate deflate unused)
 set(sources "")
-foreach(name utils crc32 adler32 deflate_decompress deflate_compress zlib_compress)
+foreach(name utils crc32 adler32 deflate_decompress deflate_compress zlib_compress zlib_decompress)
     list(APPEND sources ${deflate}/lib/${name}.c)
 endforeach()
 halflit_web_library(deflate FOLDERS ${deflate} SOURCES ${sources})

@@ -228,8 +228,8 @@ TEST_CASE("terminal: a short run shows no progress, and a quiet one none at all"
     if (!abilities().terminals) HALFLIT_SKIP("no terminal without a screen here");
     const TemporaryFolder folder;
     CHECK(!contains(run({"sphere:500", folder.file("a.png"), "--size", "16"}, {.terminal_columns = 80}).out, "%"));
-    // 4 million pixels of 8 samples by the scalar kernels take seconds.
-    const std::vector<std::string> slow = {"sphere:500", folder.file("a.png"), "--size", "2000", "--samples", "8", "--isa",
+    // 16 million pixels of 8 samples by the scalar kernels take seconds.
+    const std::vector<std::string> slow = {"sphere:500", folder.file("a.png"), "--size", "4000", "--samples", "8", "--isa",
                                            "scalar",     "--threads",          "1"};
     std::vector<std::string> quiet = slow;
     quiet.emplace_back("-q");

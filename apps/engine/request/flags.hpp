@@ -34,7 +34,7 @@ struct Flag {
     std::string names;  ///< "-o,--output"; the long name is last
     std::string form;   ///< the value: "off|on", "FILE"; words in capitals stand for something. Empty: a switch, which takes no value
     std::string help;
-    ReadValue read;         ///< called for each use; for a switch with an empty text
+    ReadValue read;                ///< called for each use; for a switch with an empty text
     bool repeated = false;         ///< may be given several times
     std::optional<Stage> stage{};  ///< empty: that of the group
 

@@ -163,16 +163,17 @@ FlagGroup camera_flags(RenderOptions& o) {
           "COLMAP's images.txt, or a glTF file. Their coordinates and axes are those of the model's file",
           read_text(o.camera_file)},
          of_stage(Stage::load, {"--ground", "", "Add a ground below the scene that shows only shadows", set_to(o.ground)}),
-         of_stage(Stage::load, {"--up", form_of(kUpAxisNames), fmt::format(
-              "Axis of the model that points up (default {}, and z for STL and 3MF). Views, the ground and the light from above follow it; "
-              "coordinates stay those of the file",
-              name_of(UpAxis::y, kUpAxisNames)),
-          [&o](const std::string& text) {
-              UpAxis up{};
-              const auto read = named(up, kUpAxisNames)(plain_axis(text));
-              if (read) o.load.up = up;
-              return read;
-          }})},
+         of_stage(Stage::load, {"--up", form_of(kUpAxisNames),
+                                fmt::format("Axis of the model that points up (default {}, and z for STL and 3MF). Views, the ground and "
+                                            "the light from above follow it; "
+                                            "coordinates stay those of the file",
+                                            name_of(UpAxis::y, kUpAxisNames)),
+                                [&o](const std::string& text) {
+                                    UpAxis up{};
+                                    const auto read = named(up, kUpAxisNames)(plain_axis(text));
+                                    if (read) o.load.up = up;
+                                    return read;
+                                }})},
         Stage::draw};
 }
 
@@ -307,26 +308,29 @@ FlagGroup shadow_flags(RenderOptions& o) {
           number(o.sun_size_deg, 0.0f, 40.0f)},
          {"--lamp-size", "R", "Soft shadows of point and spot lights: their radius, in the scene's units (default 0)",
           number(o.lamp_size, 0.0f, 1e9f)}},
-            Stage::light};
+        Stage::light};
 }
 
 FlagGroup surface_flags(RenderOptions& o) {
     return {
         "Surface",
-        {of_stage(Stage::draw, {"--lobe", joined(lobe_name_list(), "|"), "Diffuse lobe: how reflected light depends on the angle to the light (default lambert)",
-          [&o](const std::string& text) -> Result<void> {
-              o.lobe_name = text;
-              return {};
-          }}),
-         of_stage(Stage::draw, {"--wrap", "W",
-          fmt::format("Wrap, 0 to {}: light reaches surfaces where the cosine between normal and light is above -W", kMaxLobeWrap),
-          number(o.lobe.wrap, 0.0f, kMaxLobeWrap)}),
-         of_stage(Stage::draw, {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)}),
+        {of_stage(Stage::draw, {"--lobe", joined(lobe_name_list(), "|"),
+                                "Diffuse lobe: how reflected light depends on the angle to the light (default lambert)",
+                                [&o](const std::string& text) -> Result<void> {
+                                    o.lobe_name = text;
+                                    return {};
+                                }}),
+         of_stage(Stage::draw,
+                  {"--wrap", "W",
+                   fmt::format("Wrap, 0 to {}: light reaches surfaces where the cosine between normal and light is above -W", kMaxLobeWrap),
+                   number(o.lobe.wrap, 0.0f, kMaxLobeWrap)}),
+         of_stage(Stage::draw,
+                  {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)}),
          of_stage(Stage::draw, {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
-          [&o](const std::string&) -> Result<void> {
-              o.lobe.normalize = true;
-              return {};
-          }}),
+                                [&o](const std::string&) -> Result<void> {
+                                    o.lobe.normalize = true;
+                                    return {};
+                                }}),
          {"--own-lobes", form_of(kOffOn),
           fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power apply to all",
                       name_of(o.own_lobes, kOffOn)),
@@ -398,7 +402,8 @@ namespace {
 
 FlagGroup line_flags(RenderOptions& o) {
     return {"Lines",
-            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)", [&o](const std::string& text) {
+            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)",
+              [&o](const std::string& text) {
                   return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
               }}},
             Stage::draw};

@@ -97,7 +97,7 @@ PlyHeader read_ply_header(std::span<const std::byte> bytes, Document& document) 
     header.body = scanner.left();
     header.body.remove_prefix(header.body.starts_with("\r\n") ? 2 : header.body.empty() ? 0 : 1);
     if (const LoadFailure failure{{ErrorCode::bad_input, "the header has no format"}}; !has_format) {
-        if (!begins_as_text(std::as_bytes(std::span(header.body)))) throw failure;
+        if (!begins_as_text(std::as_bytes(std::span(header.body.data(), header.body.size())))) throw failure;
         document.go_on_without(failure, "read as text");
     }
     return header;
