@@ -48,7 +48,7 @@ TEST_CASE("agent pages: the command lines of docs/SKILL.md work", "[cli][help]")
     int lines = 0;
     for (std::string line; std::getline(page, line);) {
         if (!line.starts_with("    halflit ")) continue;
-        const std::vector<std::string> words = arguments_of(line);
+        const std::vector<std::string> words = words_of_line(line);
         const Outcome outcome = run(words, {.folder = folder.path()});
         INFO(line << "\n" << outcome.err);
         // Versions differ.

@@ -105,7 +105,7 @@ TEST_CASE("help: the examples work", "[cli][help]") {
             if (!line.starts_with("  halflit ")) continue;
             ++examples;
             if (HALFLIT_HAS_WEBP_FILMS == 0 && contains(line, ".webp")) continue;
-            const Outcome outcome = run(arguments_of(line), {.folder = folder.path()});
+            const Outcome outcome = run(words_of_line(line), {.folder = folder.path()});
             INFO(line << "\n" << outcome.err);
             CHECK(outcome.code == (command == "compare" ? 1 : 0));  // versions differ
         }

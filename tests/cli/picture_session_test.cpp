@@ -1,8 +1,7 @@
 // A scene that stays loaded between two pictures, as the page keeps it: each flag says which stage it makes anew.
 #include "apps/web/picture_session.hpp"
 #include "apps/engine/request/render_options.hpp"
-
-#include <catch2/catch_test_macros.hpp>
+#include "tests/support/catch.hpp"
 
 #include <algorithm>
 #include <map>

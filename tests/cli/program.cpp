@@ -45,7 +45,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-std::vector<std::string> arguments_of(const std::string& line) {
+std::vector<std::string> words_of_line(const std::string& line) {
     std::istringstream stream(line);
     std::vector<std::string> words;
     std::string word;

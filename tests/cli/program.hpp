@@ -17,7 +17,7 @@ void write_contents(const std::string& path, const std::string& text);
 [[nodiscard]] inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 [[nodiscard]] std::vector<std::string> lines_of(const std::string& text);
 /// The words of a command line after the program's name; quotes stand around whole words.
-[[nodiscard]] std::vector<std::string> arguments_of(const std::string& line);
+[[nodiscard]] std::vector<std::string> words_of_line(const std::string& line);
 /// Each line is a value.
 [[nodiscard]] std::vector<nlohmann::json> json_lines(const std::string& text);
 
