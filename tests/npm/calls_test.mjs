@@ -50,6 +50,34 @@ const before = await memory();
 for (let i = 0; i < 100; ++i) await render(i % 3 ? knot : "demo", { size: "48x32" });
 check("a hundred scenes leave no memory behind", (await memory()) <= 1.25 * before, `${before} bytes before, ${await memory()} after`);
 
+// ---- the engine's calls -------------------------------------------------------------------------------------------------
+// A report without what differs between two runs.
+const without_times = (value) => Array.isArray(value) ? value.map(without_times) : value === null || typeof value !== "object" ? value :
+  Object.fromEntries(Object.entries(value).filter(([key]) => !key.endsWith("ms") && key !== "peak_memory_bytes").map(([key, one]) => [key, without_times(one)]));
+const same_report = (what, answer, ...words) => {
+  const [ours, theirs] = [answer.report, JSON.parse(command([program, ...words], { cwd: work }).stdout)].map(without_times);
+  const differing = Object.keys(theirs).filter((key) => JSON.stringify(ours[key]) !== JSON.stringify(theirs[key]));
+  check(what, differing.length === 0, differing.map((key) => `${key}: ${JSON.stringify(ours[key])}, the program's ${JSON.stringify(theirs[key])}`).join("; "));
+};
+const facet = "solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet endsolid a";
+writeFileSync(join(work, "facet.stl"), facet);
+const model = await load(knot, { name: "knot.glb", files: { "facet.stl": facet } });
+const looked = await model.look({ size: "96x64", view: ["front", "iso"] });
+same_report("look() is that of the program", looked, "look", "knot.glb", "--size", "96x64", "--view", "front,iso", "--json", "-");
+check("its sheet is a picture", looked.good && looked.notes.length > 0 && looked.picture.width > 96 && looked.picture.png().length > 100);
+same_report("section() too", await model.section("x=50%", { size: "96x64" }), "look", "knot.glb", "--section", "x=50%", "--size", "96x64", "--json", "-");
+same_report("certify() too", await model.certify({ size: "96x64" }), "look", "knot.glb", "--certify", "1", "--size", "96x64", "--json", "-");
+same_report("explain() too", await model.explain([48, 32], { size: "96x64" }), "explain", "knot.glb", "--pixel", "48,32", "--size", "96x64", "--json");
+same_report("compare() too", await model.compare("facet.stl", { size: "96x64" }), "compare", "knot.glb", "facet.stl", "--size", "96x64", "--json", "-");
+const measured = await model.measure(), native_measures = JSON.parse(run(["info", "knot.glb", "--json"])).measures;
+check("measure() has the program's measures", JSON.stringify(measured.report.measures) === JSON.stringify(native_measures));
+for (const [what, work, words] of [["a misspelled argument", model.look({ veiw: "front" }), /unknown argument 'veiw'.*did you mean view/], ["an unknown call", model.call("lok"), /look/],
+  ["a value", model.look({ size: "big" }), /size: expected/]]) {
+  const error = await refused(work);
+  check(`${what} is refused`, error.code === 2 && words.test(error.message), error.message);
+}
+model.free();
+
 // ---- environments -------------------------------------------------------------------------------------------------------
 // A .pfm file of one colour.
 function sky(red) {

@@ -14,5 +14,5 @@ if "$1/apps/web/sources.sh" "$1/build/web-sources"; then
     libraries=$1/build/web-sources
     targets+=(halflit_playground halflit_npm)
 fi
-cmake --preset web -S "$1" -B "$2" -DHALFLIT_BUILD_TESTS=ON -DHALFLIT_WEB_LIBRARIES="$libraries" -DHALFLIT_WEB_LINK=-O1
+cmake --preset web -S "$1" -B "$2" -DHALFLIT_BUILD_TESTS=ON -DHALFLIT_WEB_LIBRARIES="$libraries"
 cmake --build "$2" --target "${targets[@]}"

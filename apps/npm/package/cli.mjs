@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 // halflit MODEL [PICTURE] [FLAGS] and halflit info MODEL [FLAGS]: the program's `render` and `info`, by the module.
-import { accessSync, closeSync, constants, existsSync, openSync, readFileSync, readSync, realpathSync, statSync, writeFileSync, writeSync } from "node:fs";
+import { accessSync, closeSync, constants, existsSync, openSync, readFileSync, readSync, readdirSync, realpathSync, statSync, writeFileSync, writeSync } from "node:fs";
 import { basename, dirname, isAbsolute, relative, resolve } from "node:path";
 import { isatty } from "node:tty";
 import { parse, table_of } from "./command_line.mjs";
@@ -28,6 +28,7 @@ function help(command) {
 
 // ---- files --------------------------------------------------------------------------------------------------------------
 const is_folder = (path) => statSync(path, { throwIfNoEntry: false })?.isDirectory() ?? false;
+const holds_model = (folder) => readdirSync(folder).some((name) => kModels.test(name));
 const is_scene = (word) => word === "-" || is_built_in(word) || kModels.test(word) || existsSync(word);
 const real = (path) => (existsSync(path) ? realpathSync(path) : resolve(path));
 const same_file = (a, b) => a !== "-" && b !== "-" && real(a) === real(b);
@@ -193,7 +194,9 @@ async function main(words) {
   const line = parse(words, is_scene);
   if (line.help) return print(help(line.command));
   if (line.version) return print(`halflit ${version} (pixel_epoch ${pixelEpoch}, WebAssembly)\n`);
-  const model = line.words[0] ?? "demo", at = line.passed.lastIndexOf("--env");
+  const model = line.words[0] ?? "demo";
+  if (is_folder(model)) throw usage(`${model}: is a folder${holds_model(model) ? ", expected one model" : " without models"}`);
+  const at = line.passed.lastIndexOf("--env");
   const environment = at >= 0 && !kNamedSkies.includes(line.passed[at + 1]) ? line.passed.splice(at, 2)[1] : null;
   try {
     await (line.command === "info" ? describe(line, model, environment) : draw(line, model, environment));

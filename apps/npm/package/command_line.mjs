@@ -93,13 +93,13 @@ export function parse(line, is_scene) {
       continue;
     }
     const attached = equals >= 0 ? word.slice(equals + 1) : !long ? word.slice(2) : "";
-    if (attached === "" && i + 1 === rest.length) throw fail(`${flag.names.at(-1)}: 1 required ${flag.form} missing`);
+    if (attached === "" && i + 1 === rest.length) throw fail(`${flag.names.at(-1)}: expected ${flag.form} after it, found nothing`);
     take(flag, attached || rest[++i]);
   }
   if (parsed.help) return parsed;
   if (parsed.unknown) throw fail(`unknown flag ${parsed.unknown}`);
   for (const [flag, count] of given)
-    if (count > 1 && flag.form !== "" && !flag.repeated) throw fail(`${flag.names.at(-1)}: At Most 1 required but received ${count}`);
+    if (count > 1 && flag.form !== "" && !flag.repeated) throw fail(`${flag.names.at(-1)}: expected once, found ${count} times`);
   const { threads } = parsed.own;
   if (threads !== undefined && !(/^\d+$/.test(threads) && threads <= 1024))
     throw fail(`--threads: expected a whole number from 0 to 1024, found '${threads}'`);

@@ -327,13 +327,14 @@ export class Scene {
       const core = this.#core, handle = this.#live();
       const flags = flag_words(core, this.#with_environment(options)).join("\n");  // each time: another picture may have replaced the environment
       const code = call(core, () => with_text(core, flags, work));
+      const told = code === 0 ? "" : core.UTF8ToString(core._halflit_text(handle));  // before another picture of the scene
       const found = round < kRounds ? await this.#ask() : [];
       if (found.length > 0) {
         call(core, () => found.forEach(([name, bytes]) => add_file(core, this.#live(), name, bytes, true)));
         continue;
       }
       if (code === 0) return;
-      const message = in_callers_words(core.UTF8ToString(core._halflit_text(handle)), options);
+      const message = in_callers_words(told, options);
       // Memory never shrinks: new scenes get a new module, and this one goes with its last scene.
       if (code === kLimit && message.includes("out of memory")) core.full = true;
       throw new HalflitError(message, code);
