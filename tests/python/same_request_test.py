@@ -4,6 +4,7 @@ import json
 import os
 import re
 import subprocess
+import sys
 import unittest
 import warnings
 
@@ -137,4 +138,7 @@ class SameRequestTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    if sys.argv[1:] == ["--flags"]:  # for the test of the npm package
+        print(json.dumps([flags_of(request) for request in requests()]))
+    else:
+        unittest.main()

@@ -63,8 +63,9 @@ Result<void> for_each_flag(const std::vector<FlagGroup>& groups, std::span<const
         }
         const bool takes_value = !flag->form.empty(), assigned = equals != std::string::npos;
         if (assigned && !takes_value) return fail(ErrorCode::usage, name + ": takes no value");
-        if (takes_value && !assigned && i + 1 == words.size()) return fail(ErrorCode::usage, name + ": expected a value");
-        const std::string value = !takes_value ? "" : assigned ? word.substr(equals + 1) : words[++i];
+        const bool has_value = assigned || i + 1 < words.size();
+        const std::string value = !takes_value || !has_value ? "" : assigned ? word.substr(equals + 1) : words[++i];
+        if (takes_value && value.empty()) return fail(ErrorCode::usage, name + ": expected a value, found nothing");
         if (const auto used = use(*of, *flag, name, value); !used) return used;
     }
     return {};
