@@ -19,7 +19,6 @@ SOURCE = "shading/include/halflit/material.hpp"
 HEADER = "apps/c/include/halflit/halflit.h"
 PYTHON = "apps/python/halflit/_material.py"
 PYTHON_MEMBERS = "apps/python/halflit/_members.py"
-EXPLAIN = "docs/schema/explain-1.schema.json"
 FORMATS = "docs/formats.md"
 # TypedDict -> class whose members it has, its file, and those that are not in it.
 PYTHON_DICTS = {
@@ -210,20 +209,6 @@ def python_settings():
     return join(docs), join(annotations), join(table)
 
 
-def explain_schema(text):
-    """The schema of `explain`, with the factors and texture slots of a material."""
-    numbers = [(name, kind) for name, kind, *_ in properties() if kind != "TextureUse"]
-    schema = json.loads(text)
-    surface = next(one for one in schema["$defs"]["pixel"]["properties"]["surface"]["anyOf"] if "properties" in one)["properties"]
-    several = lambda count: {"type": "array", "minItems": count, "maxItems": count, "items": {"type": "number"}}
-    kinds = {"float": {"type": "number"}, "Vec3f": several(3), "Vec4f": several(4)}
-    surface["factors"]["properties"] = {name: kinds[kind] for name, kind in numbers}
-    surface["factors"]["required"] = [name for name, _ in numbers]
-    slots = [name.removesuffix("_texture") for name, kind, *_ in properties() if kind == "TextureUse"]
-    surface["textures"]["items"]["properties"]["slot"]["enum"] = slots
-    return json.dumps(schema, indent=2) + "\n"
-
-
 def formats_page(text):
     """The page of formats, with the extensions of the table in its row of materials."""
     row = re.search(r"^\| materials \| (.*) \|$", text, re.M)
@@ -258,7 +243,7 @@ def made():
         lines = python_dict(python if path == PYTHON else text_of(path), kind, left_out)
         members = re.sub(rf'(^class {name}\(.*?""".*?"""\n\n).*?(?=^\n|\Z)', lambda found: found.group(1) + lines, members, flags=re.S | re.M)
     return {HEADER: header, PYTHON: python, PYTHON_MEMBERS: members, PYTHON_SETTINGS: options, PYTHON_TABLE: keywords,
-            EXPLAIN: explain_schema(text_of(EXPLAIN)), FORMATS: formats_page(text_of(FORMATS))}
+            FORMATS: formats_page(text_of(FORMATS))}
 
 
 def main():

@@ -16,7 +16,7 @@ set(HALFLIT_ENGINE_JSON request/camera_formats request/lobe_model job/aov_names 
 # What needs a system: its folders and streams, and libraries that write films.
 set(HALFLIT_ENGINE_FILMS film/gif_palette film/gif_writer film/apng_writer film/webp_writer)
 set(HALFLIT_ENGINE_SYSTEM basics/output_folder job/standard_input film/film_writer)
-set(HALFLIT_ENGINE_SERVER calls/answer_limits calls/kept_scenes)
+set(HALFLIT_ENGINE_SERVER answers/answer_schema calls/answer_limits calls/kept_scenes)
 foreach(part PIXELS WORDS JSON FILMS SYSTEM SERVER)
     list(TRANSFORM HALFLIT_ENGINE_${part} APPEND .cpp)
 endforeach()
@@ -27,3 +27,14 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${font})
 file(READ ${font} font_bytes HEX)
 string(REGEX REPLACE "(..)" "0x\\1," font_bytes "${font_bytes}")
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/dejavu_sans.inc CONTENT "${font_bytes}\n" @ONLY)
+
+# So do the tables of reports, which answer_schema.cpp includes.
+file(GLOB tables CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/answers/*.txt)
+set(rows "")
+foreach(table IN LISTS tables)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
+    get_filename_component(kind ${table} NAME_WE)
+    file(READ ${table} text)
+    string(APPEND rows "{\"${kind}\", R\"~(${text})~\"},\n")
+endforeach()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/answer_tables.inc CONTENT "${rows}" @ONLY)

@@ -55,7 +55,7 @@ std::vector<std::string> words_of(const std::string& command, const json& argume
     return words;
 }
 
-/// The tools, and the schema of docs/schema that the report of each has.
+/// The tools, and the schema that the report of each has.
 const std::map<std::string, std::string> kSchemas{
     {"look", "look-1.schema.json"},    {"render", "report-1.schema.json"},   {"measure", "measure-1.schema.json"},
     {"section", "look-1.schema.json"}, {"compare", "compare-1.schema.json"}, {"explain", "explain-1.schema.json"},

@@ -1,4 +1,4 @@
-// A checker of the part of JSON Schema that docs/schema uses.
+// A checker of the part of JSON Schema that the schemas of reports use.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace halflit::test {
 /// It is stricter than the standard: an object may have no key that the schema does not describe.
 class Schema {
 public:
-    /// A file of docs/schema.
+    /// "KIND-1.schema.json"
     explicit Schema(const std::string& file);
     /// The first fault, as a path and a reason; empty: none.
     [[nodiscard]] std::string fault(const nlohmann::json& value) const { return check(value, root_, file_, "", true); }

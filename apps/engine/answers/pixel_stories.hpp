@@ -11,7 +11,7 @@
 namespace halflit::engine {
 
 struct PixelStories {
-    Json report;                                     ///< the keys of docs/schema/explain-1.schema.json
+    Json report;                                     ///< the keys of docs/answers/explain.txt
     std::string text;                                ///< for people
     std::vector<std::string> warnings{}, choices{};  ///< of explain()
 };

@@ -11,7 +11,7 @@ namespace halflit::engine {
 /// The story in the file's coordinates and lengths, of a scene that is drawn at `placement`.
 [[nodiscard]] PixelStory in_file(PixelStory story, const Placement& placement);
 
-/// The keys of docs/schema/explain-1.schema.json, $defs/pixel.
+/// The keys of docs/answers/explain.txt, :pixel.
 [[nodiscard]] Json story_json(const PixelStory& story, const NameOfInstance& name = {});
 
 }  // namespace halflit::engine

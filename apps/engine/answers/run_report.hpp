@@ -14,7 +14,7 @@ namespace halflit::engine {
 using Json = nlohmann::ordered_json;
 
 /// {"schema": "halflit.KIND/1", "status": "ok", "halflit": version, "pixel_epoch": N}. The number is that of
-/// docs/schema/KIND-1.schema.json. It rises when a key is removed or changes its meaning, and stays when one is added.
+/// docs/answers/KIND.txt. It rises when a key is removed or changes its meaning, and stays when one is added.
 [[nodiscard]] Json report_head(std::string_view kind);
 
 /// Adds the frame: size, hash, instruction set, threads, times, counts, warnings, peak memory.

@@ -13,7 +13,7 @@ inline constexpr std::size_t kMostNotesBytes = 20'000;     ///< of the lines bef
 
 /// A report of at most so many bytes. If it has more, no list keeps more than so many items, the same number for all: 10000, 5000, 2000 and
 /// so on down to 1, and then the largest members go. Lists of up to 16 numbers, such as points and matrices, stay whole, and texts keep 500
-/// bytes. What is left out is counted by "left_out": [{"list": JSON pointer, "items": count}], as docs/schema/answer-1.schema.json has it.
+/// bytes. What is left out is counted by "left_out": [{"list": JSON pointer, "items": count}], as docs/answers/answer.txt has it.
 [[nodiscard]] Json bounded_report(Json report, std::size_t most_bytes = kMostAnsweredBytes);
 
 /// The first lines that have at most so many bytes. A last line says how many are left out.

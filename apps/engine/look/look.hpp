@@ -33,7 +33,7 @@ struct ViewPicture {
 };
 
 struct LookResult {
-    Json report;                        ///< the keys of docs/schema/look-1.schema.json
+    Json report;                        ///< the keys of docs/answers/look.txt
     std::optional<Image> sheet;         ///< none without LookOptions::sheet
     std::vector<ViewPicture> pictures;  ///< of each view; none without LookOptions::folder
     std::vector<std::string> inputs;    ///< files that the model refers to

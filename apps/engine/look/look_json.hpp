@@ -9,7 +9,7 @@
 
 namespace halflit::engine {
 
-/// The keys of docs/schema/look-1.schema.json. measures: of measures_json().
+/// The keys of docs/answers/look.txt. measures: of measures_json().
 [[nodiscard]] Json look_json(const RenderJob& job, const Json& measures, std::span<const ViewShot> shots,
                              std::span<const ViewContent> contents);
 

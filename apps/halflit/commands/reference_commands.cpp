@@ -1,4 +1,5 @@
 // Commands that print the tables: help, man, completion, flags.
+#include "apps/engine/answers/answer_schema.hpp"
 #include "apps/engine/basics/spelling.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/flags/agent_pages.hpp"
@@ -77,6 +78,7 @@ Command completion_command() {
 Command flags_command() {
     struct Pages {
         bool markdown = false, skill = false, llms = false;
+        std::string schema;
     };
     const auto wanted = std::make_shared<Pages>();
     return {"flags",
@@ -85,8 +87,14 @@ Command flags_command() {
             {{"Flags",
               {{"--markdown", "", "As a page in Markdown", set_to(wanted->markdown)},
                {"--skill", "", "The page for agents that use the program", set_to(wanted->skill)},
-               {"--llms", "", "The index of the documentation, llms.txt", set_to(wanted->llms)}}}},
+               {"--llms", "", "The index of the documentation, llms.txt", set_to(wanted->llms)},
+               {"--schema", joined(answer_kinds(), "|"), "The JSON Schema of a report", read_text(wanted->schema)}}}},
             [wanted]() -> Result<int> {
+                if (!wanted->schema.empty()) {
+                    const auto schema = answer_schema(wanted->schema);
+                    if (!schema) return fail(ErrorCode::usage, "--schema: " + schema.error().message);
+                    return print(*schema);
+                }
                 const std::vector<Command> commands = all_commands();
                 if (wanted->markdown) return print(markdown_page(commands));
                 if (wanted->skill) return print(skill_page(commands, tool_helps()));

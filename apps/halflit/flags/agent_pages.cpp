@@ -101,7 +101,7 @@ changed pixel is a change of the model or of the flags.
 
 speaks the Model Context Protocol on standard input and output. An argument has the name of the flag: `"hidden-edges": "dashed"`. Paths are
 relative to the root. Text of an answer begins with the faults; then comes the report, then the picture. The report is one line of JSON, by
-the schemas of docs/schema. It has at most 60 kB: `left_out` counts what long lists lack; with `--json FILE` the command writes them whole.
+docs/answers. It has at most 60 kB: `left_out` counts what long lists lack; with `--json FILE` the command writes them whole.
 The server keeps the )"
                                         R"(last models, so
 that a second call on the same file is faster, and loads a file anew when it has changed. It writes nothing but what `output` names.

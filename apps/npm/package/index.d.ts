@@ -26,7 +26,7 @@ export interface LoadOptions extends RenderOptions {
   name?: string;
 }
 
-/** As that of `halflit render --report`; docs/schema/report-1.schema.json describes it. */
+/** As that of `halflit render --report`; docs/answers/report.txt describes it. */
 export interface Report {
   schema: string;
   halflit: string;
@@ -43,7 +43,7 @@ export interface Report {
   [key: string]: unknown;
 }
 
-/** As `halflit info --json` prints it; docs/schema/info-1.schema.json describes it. */
+/** As `halflit info --json` prints it; docs/answers/info.txt describes it. */
 export interface Info {
   schema: string;
   file?: Record<string, unknown>;
