@@ -4,7 +4,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/settings.hpp"
 #include "raster/detail/executor.hpp"
-#include "raster/scene/model_edges.hpp"
+#include "raster/geometry/model_edges.hpp"
 
 #include <cstdint>
 #include <vector>

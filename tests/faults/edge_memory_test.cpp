@@ -1,7 +1,7 @@
 // Memory of edges: what is counted against the limit, and what is allocated.
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
-#include "raster/scene/model_edges.hpp"
+#include "raster/geometry/model_edges.hpp"
 #include "sh/mat4.hpp"
 #include "tests/faults/allocation_counter.hpp"
 #include "tests/support/cameras.hpp"

@@ -1,4 +1,4 @@
-#include "raster/scene/mesh_topology.hpp"
+#include "raster/geometry/mesh_topology.hpp"
 
 #include "halflit/shapes.hpp"
 

@@ -1,5 +1,5 @@
 // Rays against a scene's triangles, compared with all triangles one by one.
-#include "raster/ray_hits.hpp"
+#include "raster/explain/ray_hits.hpp"
 #include "halflit/shapes.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/mat4.hpp"

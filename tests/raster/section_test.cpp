@@ -2,9 +2,9 @@
 
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/geometry/section_fill.hpp"
+#include "raster/geometry/section_mesh.hpp"
 #include "raster/scene/placed_point.hpp"
-#include "raster/scene/section_fill.hpp"
-#include "raster/scene/section_mesh.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 

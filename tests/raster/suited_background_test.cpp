@@ -1,5 +1,5 @@
 // The background that a scene's silhouette stands out from, by the luminance of its surfaces.
-#include "raster/view/suited_background.hpp"
+#include "raster/choice/suited_background.hpp"
 #include "halflit/auto_setup.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"

@@ -6,7 +6,7 @@
 #include "apps/engine/request/plan_names.hpp"
 #include "apps/io/models/scaled_lengths.hpp"
 #include "raster/frame_plan.hpp"
-#include "raster/scene/mesh_topology.hpp"
+#include "raster/geometry/mesh_topology.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/vec3d.hpp"
 

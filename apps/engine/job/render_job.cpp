@@ -16,7 +16,7 @@
 #include "halflit/image.hpp"
 #include "halflit/scene.hpp"
 #include "raster/check_execution.hpp"
-#include "raster/completed_light.hpp"
+#include "raster/choice/completed_light.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"

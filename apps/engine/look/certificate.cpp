@@ -2,9 +2,9 @@
 
 #include "apps/engine/look/triangle_tally.hpp"
 #include "apps/io/files/in_parts.hpp"
+#include "raster/geometry/welded_surface.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/placed_point.hpp"
-#include "raster/scene/welded_surface.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
 #include "sh/trig.hpp"

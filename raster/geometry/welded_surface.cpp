@@ -1,4 +1,4 @@
-#include "raster/scene/welded_surface.hpp"
+#include "raster/geometry/welded_surface.hpp"
 
 #include "raster/scene/placed_point.hpp"
 #include "sh/mat4.hpp"

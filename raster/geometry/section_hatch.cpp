@@ -1,4 +1,4 @@
-#include "raster/scene/section_hatch.hpp"
+#include "raster/geometry/section_hatch.hpp"
 
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/mean_color.hpp"

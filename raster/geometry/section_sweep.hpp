@@ -1,7 +1,7 @@
 // A line that sweeps over edges that have only ends in common, and keeps those that it meets in their order from below.
 #pragma once
 
-#include "raster/scene/section_grid.hpp"
+#include "raster/geometry/section_grid.hpp"
 #include "sh/time_limit.hpp"
 
 #include <algorithm>

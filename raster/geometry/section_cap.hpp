@@ -1,7 +1,7 @@
 // The cap of a section: a flat mesh.
 #pragma once
 
-#include "raster/scene/section_mesh.hpp"
+#include "raster/geometry/section_mesh.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -9,7 +9,7 @@
 #include "halflit/auto_setup.hpp"
 #include "halflit/camera.hpp"
 #include "halflit/scene.hpp"
-#include "raster/scene/framed_part.hpp"
+#include "raster/choice/framed_part.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/fp_environment.hpp"

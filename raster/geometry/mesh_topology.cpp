@@ -1,6 +1,6 @@
-#include "raster/scene/mesh_topology.hpp"
+#include "raster/geometry/mesh_topology.hpp"
 
-#include "raster/scene/surface_edges.hpp"
+#include "raster/geometry/surface_edges.hpp"
 
 #include <algorithm>
 #include <numeric>

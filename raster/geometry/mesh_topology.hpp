@@ -1,7 +1,7 @@
 // Connectivity of triangles: edges, bodies, and whether a surface is closed.
 #pragma once
 
-#include "raster/scene/welded_surface.hpp"
+#include "raster/geometry/welded_surface.hpp"
 
 #include <cstddef>
 #include <cstdint>

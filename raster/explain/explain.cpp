@@ -2,7 +2,7 @@
 
 #include "raster/detail/guarded.hpp"
 #include "raster/detail/view_math.hpp"
-#include "raster/ray_hits.hpp"
+#include "raster/explain/ray_hits.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/view/depth_range.hpp"
 #include "sh/mat4.hpp"

@@ -1,6 +1,6 @@
-#include "raster/scene/section_triangulate.hpp"
+#include "raster/geometry/section_triangulate.hpp"
 
-#include "raster/scene/section_sweep.hpp"
+#include "raster/geometry/section_sweep.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -1,8 +1,8 @@
 #include "halflit/camera.hpp"
 
 #include "halflit/scene.hpp"
+#include "raster/choice/framed_part.hpp"
 #include "raster/detail/view_math.hpp"
-#include "raster/scene/framed_part.hpp"
 #include "raster/scene/placed_box.hpp"
 #include "sh/arc.hpp"
 #include "sh/fp_environment.hpp"

@@ -1,4 +1,4 @@
-#include "raster/view/suited_background.hpp"
+#include "raster/choice/suited_background.hpp"
 
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/mean_color.hpp"

@@ -1,4 +1,4 @@
-#include "raster/ray_hits.hpp"
+#include "raster/explain/ray_hits.hpp"
 
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/placed_box.hpp"

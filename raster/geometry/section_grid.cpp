@@ -1,4 +1,4 @@
-#include "raster/scene/section_grid.hpp"
+#include "raster/geometry/section_grid.hpp"
 
 #include "sh/time_limit.hpp"
 

@@ -1,9 +1,9 @@
 #include "halflit/auto_setup.hpp"
 
-#include "raster/completed_light.hpp"
+#include "raster/choice/completed_light.hpp"
+#include "raster/choice/suited_background.hpp"
 #include "raster/detail/guarded.hpp"
 #include "raster/view/projection.hpp"
-#include "raster/view/suited_background.hpp"
 #include "sh/fp_environment.hpp"
 #include "shading/environment.hpp"
 

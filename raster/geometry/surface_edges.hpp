@@ -1,7 +1,7 @@
 // Edges of a welded surface, with the triangles that run along each.
 #pragma once
 
-#include "raster/scene/welded_surface.hpp"
+#include "raster/geometry/welded_surface.hpp"
 #include "sh/time_limit.hpp"
 
 #include <algorithm>

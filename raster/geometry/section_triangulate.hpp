@@ -1,7 +1,7 @@
 // Triangles that fill the region between edges.
 #pragma once
 
-#include "raster/scene/section_grid.hpp"
+#include "raster/geometry/section_grid.hpp"
 
 #include <cstdint>
 #include <vector>

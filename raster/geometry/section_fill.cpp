@@ -1,9 +1,9 @@
-#include "raster/scene/section_fill.hpp"
+#include "raster/geometry/section_fill.hpp"
 
-#include "raster/scene/section_grid.hpp"
-#include "raster/scene/section_refine.hpp"
-#include "raster/scene/section_sweep.hpp"
-#include "raster/scene/section_triangulate.hpp"
+#include "raster/geometry/section_grid.hpp"
+#include "raster/geometry/section_refine.hpp"
+#include "raster/geometry/section_sweep.hpp"
+#include "raster/geometry/section_triangulate.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
-#include "raster/scene/model_edges.hpp"
+#include "raster/geometry/model_edges.hpp"
 
+#include "raster/geometry/surface_edges.hpp"
 #include "raster/scene/instance_material.hpp"
-#include "raster/scene/surface_edges.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 

@@ -1,4 +1,4 @@
-#include "raster/scene/section_refine.hpp"
+#include "raster/geometry/section_refine.hpp"
 
 #include "sh/time_limit.hpp"
 

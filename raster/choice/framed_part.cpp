@@ -1,4 +1,4 @@
-#include "raster/scene/framed_part.hpp"
+#include "raster/choice/framed_part.hpp"
 
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/instance_material.hpp"

@@ -1,4 +1,4 @@
-#include "raster/scene/section_mesh.hpp"
+#include "raster/geometry/section_mesh.hpp"
 
 #include "raster/scene/placed_point.hpp"
 #include "sh/mat4.hpp"

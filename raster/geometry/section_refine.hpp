@@ -2,7 +2,7 @@
 // interpolated at pixels' centres beside them.
 #pragma once
 
-#include "raster/scene/section_grid.hpp"
+#include "raster/geometry/section_grid.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "raster/scene/section_cap.hpp"
+#include "raster/geometry/section_cap.hpp"
 
+#include "raster/geometry/section_fill.hpp"
 #include "raster/scene/placed_point.hpp"
-#include "raster/scene/section_fill.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 

@@ -1,8 +1,8 @@
 #include "halflit/measures.hpp"
 
 #include "raster/detail/guarded.hpp"
+#include "raster/geometry/mesh_topology.hpp"
 #include "raster/scene/instance_material.hpp"
-#include "raster/scene/mesh_topology.hpp"
 #include "sh/vec3d.hpp"
 
 #include <algorithm>
