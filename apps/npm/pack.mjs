@@ -32,7 +32,7 @@ export const flags = ${JSON.stringify(table.flags).replaceAll('},{"names"', '},\
 `);
 
 const camel = (name) => name.replace(/^-+/, "").replace(/-([a-z0-9])/g, (_, letter) => letter.toUpperCase());
-function type_of({ form, repeated }) {
+function type_of({ form, number, repeated }) {
   if (form === "") return "boolean";
   const words = form.split("|"), named = words.every((word) => /^[a-z0-9-]+$/.test(word));
   let type = named ? words.map((word) => JSON.stringify(word)).join(" | ") : "string";
@@ -40,7 +40,7 @@ function type_of({ form, repeated }) {
   if (named) {
     const numbers = words.filter((word) => /^\d+$/.test(word));
     if (numbers.length > 0) type += ` | ${numbers.join(" | ")}`;
-  } else if (words.some((word) => /^(N|W|X|S|R|D|PX|DEG|EV|CODES|SECONDS|PIXELS|MIB|INDEX|[0-9.]+)$/.test(word))) type += " | number";
+  } else if (number) type += " | number";
   if (/^(WxH|[A-Z](,[A-Z])+)$/.test(form)) type += " | readonly number[]";
   if (form.startsWith("FILE|")) type += " | ArrayBuffer | ArrayBufferView";
   return repeated ? `${type} | ReadonlyArray<${type}>` : type;

@@ -27,6 +27,7 @@ std::string flag_table() {
                              {"form", flag.form},
                              {"help", flag.help},
                              {"group", group.title},
+                             {"number", engine::takes_number(flag)},
                              {"repeated", flag.repeated}});
     return engine::to_text({{"version", version()}, {"pixel_epoch", kPixelEpoch}, {"flags", std::move(flags)}}, true);
 }

@@ -21,7 +21,7 @@ Vec3d mixed(Vec3d a, Vec3d b, double t) { return a + (b - a) * t; }
 /// A rectangle of light far away, upright, with soft edges.
 class SoftBox {
 public:
-    /// azimuth: from behind the viewer to the right. Width and height: angles.
+    /// azimuth: 0 is behind the viewer, 90 to the viewer's right. Width and height: angles.
     SoftBox(double azimuth_deg, double elevation_deg, double width_deg, double height_deg, Vec3d radiance) : radiance_(radiance) {
         constexpr double kDegree = kPi / 180.0;
         const SinCos turn = sin_cos(azimuth_deg * kDegree), rise = sin_cos(elevation_deg * kDegree);

@@ -91,8 +91,8 @@ bool gives_light(const Light& light) { return !(light.color_linear == Vec3f{}); 
 
 bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && ambient.ground_linear == Vec3f{}; }
 
-/// The studio's share of the light of a file, where white comes out as 1: the far sides of what a sun lights stay dark, but readable;
-/// lights alone seldom reach all of a scene.
+/// The studio's share beside lights of a file, by whose exposure white comes out as 1. A sun's far sides stay dark, but can be read; point
+/// lights seldom reach all of a scene.
 constexpr float kStudioUnderSun = 0.15f, kStudioUnderLamps = 0.5f;
 
 /// Adds the light that is lacking. Returns the exposure.

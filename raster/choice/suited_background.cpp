@@ -14,7 +14,7 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::size_t kMostElements = std::size_t{1} << 16;  ///< triangles, lines or points that are looked at
-/// Light that smooth and rough metals at a silhouette mirror to the eye, over what a white surface scatters there.
+/// At a silhouette: the light that smooth and rough metals mirror to the eye, divided by what a white surface scatters.
 constexpr double kSmoothMirrors = 0.24, kRoughMirrors = 0.66;
 /// sRGB codes of the usual background, and of that behind dark surfaces.
 constexpr int kDarkBackground[] = {0x2c, 0x30, 0x36}, kLightBackground[] = {0xb4, 0xba, 0xc2};

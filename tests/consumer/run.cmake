@@ -22,6 +22,12 @@ if(WAY STREQUAL "pkg-config")
     set(ENV{LD_LIBRARY_PATH} ${prefix}/lib:${prefix}/lib/x86_64-linux-gnu)
     run(${WORK}/consumer)
     message(STATUS "${output}")
+    execute_process(COMMAND pkg-config --cflags --libs halflit-c OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE
+        COMMAND_ERROR_IS_FATAL ANY)
+    separate_arguments(flags UNIX_COMMAND "${flags}")
+    run(${COMPILER} -x c -std=c99 ${here}/calls.c -x none ${flags} -o ${WORK}/calls)
+    run(${WORK}/calls)
+    message(STATUS "${output}")
     return()
 endif()
 

@@ -3,16 +3,12 @@
 #include "apps/engine/job/built_in_scenes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace halflit::engine {
 namespace {
 
 using Value = nlohmann::json;
-
-/// Forms of flags whose value is one number.
-constexpr std::array kNumbers = {"N", "DEG", "PX", "PIXELS", "SECONDS", "CODES", "X", "W", "S", "R", "D"};
 
 bool is_digits(const std::string& word) { return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos; }
 
@@ -35,7 +31,7 @@ Json type_of(const Flag& flag) {
         return {{"type", "integer"}, {"enum", std::move(numbers)}};
     }
     if (!choices.empty()) return {{"type", "string"}, {"enum", choices}};
-    const bool number = std::find(kNumbers.begin(), kNumbers.end(), flag.form) != kNumbers.end();
+    const bool number = takes_number(flag) && flag.form.find('|') == std::string::npos;  // some hosts take no list of types
     return {{"type", number ? "number" : "string"}};
 }
 

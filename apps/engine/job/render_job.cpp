@@ -347,7 +347,7 @@ Result<void> choose_settings(Settings& settings, const RenderOptions& options) {
 }
 
 /// Checks flags that exclude each other, and sizes that can be judged before a scene is loaded.
-Result<void> check_view(const RenderOptions& options, PictureSize usual) {
+Result<void> check_conflicts(const RenderOptions& options, PictureSize usual) {
     const bool placed_by_flags = options.camera_position || options.camera_orbit;
     if (placed_by_flags && (options.camera || options.whole_scene || (options.camera_position && options.camera_orbit)))
         return fail(
@@ -380,7 +380,7 @@ Result<void> check_view(const RenderOptions& options, PictureSize usual) {
 Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     RenderOptions options = flags;
     if (const auto settled = settle_cameras(options); !settled) return tl::unexpected(settled.error());
-    if (const auto checked = check_view(options, usual); !checked) return tl::unexpected(checked.error());
+    if (const auto checked = check_conflicts(options, usual); !checked) return tl::unexpected(checked.error());
     if (options.max_memory_bytes > 0)
         if (const auto limited = limit_process_memory(options.max_memory_bytes); !limited) return tl::unexpected(limited.error());
     RenderJob job;
@@ -447,7 +447,7 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
 Result<void> check_request(const RenderOptions& options, PictureSize usual) {
     Settings settings;
     if (const auto chosen = choose_settings(settings, options); !chosen) return chosen;
-    return check_view(options, usual);
+    return check_conflicts(options, usual);
 }
 
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {

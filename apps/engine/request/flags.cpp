@@ -4,6 +4,7 @@
 #include "apps/engine/request/values.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace halflit::engine {
 
@@ -87,6 +88,15 @@ std::string lines_of_stage(const std::vector<FlagGroup>& groups, std::span<const
     };
     static_cast<void>(for_each_flag(groups, words, add));
     return lines;
+}
+
+bool takes_number(const Flag& flag) {
+    constexpr std::string_view kNumbers[] = {"N", "DEG", "PX", "PIXELS", "SECONDS", "CODES", "X",    "W",
+                                             "S", "R",   "D",  "EV",     "OPACITY", "MIB",   "INDEX"};
+    const std::vector<std::string> words = words_of(flag.form, '|');
+    return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+        return word.find("..") != std::string::npos || std::find(std::begin(kNumbers), std::end(kNumbers), word) != std::end(kNumbers);
+    });
 }
 
 void remove_flags(std::vector<FlagGroup>& groups, std::span<const std::string_view> long_names) {

@@ -32,7 +32,7 @@ enum class Stage : std::uint8_t { load, light, draw };
 
 struct Flag {
     std::string names;  ///< "-o,--output"; the long name is last
-    std::string form;   ///< the value: "off|on", "FILE"; words in capitals stand for something. Empty: a switch, which takes no value
+    std::string form;   ///< the value: "off|on", "FILE"; words in capitals stand for something (takes_number). Empty: a switch, which takes no value
     std::string help;
     ReadValue read;                ///< called for each use; for a switch with an empty text
     bool repeated = false;         ///< may be given several times
@@ -119,6 +119,9 @@ template <class Target, class Parser>
 
 /// The flags of this stage among the words, each with its value, one a line. Words that are no flags end it.
 [[nodiscard]] std::string lines_of_stage(const std::vector<FlagGroup>& groups, std::span<const std::string> words, Stage stage);
+
+/// True if a value of the flag may be a number: a word of its form stands for one.
+[[nodiscard]] bool takes_number(const Flag& flag);
 
 /// Removes the flags of these long names.
 void remove_flags(std::vector<FlagGroup>& groups, std::span<const std::string_view> long_names);

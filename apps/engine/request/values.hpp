@@ -28,9 +28,10 @@ namespace halflit::engine {
 /// Bytes in a mebibyte, the unit of the flags of memory.
 inline constexpr std::size_t kMib = std::size_t{1} << 20;
 
-/// "X,Y,Z": three numbers within the range of float. In double, as a scene may be moved before it is drawn.
 /// Seconds within a year or so of 0.
 [[nodiscard]] Result<double> parse_time(std::string_view text);
+
+/// "X,Y,Z": three numbers within the range of float. In double, as a scene may be moved before it is drawn.
 [[nodiscard]] Result<Vec3d> parse_point(std::string_view text);
 
 /// A plane that cuts the scene, as --section gives it.

@@ -16,9 +16,9 @@ namespace halflit {
 
 /// When auto_setup() puts the scene into the built-in studio (studio_environment).
 enum class StudioUse : std::uint8_t {
-    for_dark,  ///< where the scene has no light from all around
+    for_dark,  ///< in full where the scene has no light; a share beside lights of an unknown unit, if they are all
     always,    ///< always, in full, instead of the scene's ambient light and environment
-    never,     ///< never: light from above and below takes its place
+    never,     ///< never: add_default_lights() takes its place
     /// As for_dark, and 0.15 of it under lights whose unit is known too, which leave their far sides black and metals nothing to mirror.
     under_lights
 };
@@ -33,7 +33,7 @@ struct AutoOptions {
     std::optional<float> exposure{};         ///< factor on all light; empty: chosen
     float exposure_compensation_ev = 0.0f;   ///< stops brighter than that, given or chosen
     bool add_lights = true;                  ///< a scene without any light gets some
-    StudioUse studio = StudioUse::for_dark;  ///< the built-in studio's part in that
+    StudioUse studio = StudioUse::for_dark;  ///< when the built-in studio is a part of the light
     double studio_turn_rad = 0.0;            ///< turns the studio about the vertical, counter-clockwise seen from above
 };
 

@@ -30,7 +30,7 @@ struct Scene : Lighting {
 /// World-space bounds of everything drawn but shadow catchers. Vertices that are not finite are left out.
 [[nodiscard]] HALFLIT_API Bounds scene_bounds(const Scene& scene);
 
-/// Adds light where there is none: a key light over the viewer's left shoulder, and ambient light from sky and ground.
+/// Adds a key light over the viewer's left shoulder, and sets ambient light from sky and ground: light for a scene that has none.
 HALFLIT_API void add_default_lights(Lighting& light, const Camera& camera);
 
 /// The built-in studio, made by code: a dim room with a bright horizon, soft boxes, and a floor that returns some light. 128 x 64 pixels,
@@ -42,7 +42,7 @@ HALFLIT_API void add_default_lights(Lighting& light, const Camera& camera);
 [[nodiscard]] HALFLIT_API std::shared_ptr<const Environment> studio_environment(const Camera& camera, double turn_rad = 0.0,
                                                                                 float level = 1.0f);
 
-/// Adds light where there is none: the studio, and a key light from its main soft box that casts shadows. Exposure 1.
+/// Sets the studio as the environment, and adds a key light from its main soft box that casts shadows. They are for exposure 1.
 HALFLIT_API void add_studio(Lighting& light, const Camera& camera, double turn_rad = 0.0);
 
 /// Adds a ground that is invisible but for the shadows on it (Material::shadow_catcher): a horizontal square below the lowest point of the

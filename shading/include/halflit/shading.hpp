@@ -91,7 +91,7 @@ enum class ToneCurve : std::uint8_t {
     none,      ///< light above 1 is cut off
     reinhard,  ///< light / (1 + its luminance): keeps hue and saturation; a saturated channel may still be cut off
     aces,      ///< film-like contrast in each channel: darkens shadows, brightens the middle
-    neutral    ///< Khronos PBR Neutral: keeps colours below 0.8, compresses what is brighter
+    neutral    ///< Khronos PBR Neutral: keeps colours from 0.08 to 0.8 but for 0.04, compresses what is brighter
 };
 /// Curve of settings that name none.
 inline constexpr ToneCurve kDefaultToneCurve = ToneCurve::none;

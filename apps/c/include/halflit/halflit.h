@@ -717,8 +717,8 @@ typedef struct halflit_picture_request {
 } halflit_picture_request;
 HALFLIT_C_API int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
 
-/// Chooses what a good picture requires: its size, the scene's camera or a view of the whole scene, four samples, a dark grey background,
-/// light and exposure, as the program does. Nothing in the scene changes. request may be null: the defaults. size: width and height, may be
+/// Chooses what a good picture requires, as the program does: its size, the scene's camera or a view of the whole scene, light, exposure, a
+/// grey background, and settings: samples, tone curve, anisotropy, shadows of ambient light, contact shadow, size of points. Nothing in the scene changes. request may be null: the defaults. size: width and height, may be
 /// null. lighting may be null; free it by halflit_lighting_destroy.
 HALFLIT_C_API int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* request, int32_t size[2],
                                              halflit_camera* camera, halflit_settings* settings, halflit_lighting** lighting);
@@ -907,18 +907,26 @@ typedef struct halflit_answer halflit_answer;
 /// - measure: box, area, volume and bodies of the model and of its parts. info: the file, and what drawing it requires
 /// - explain: what made pixels of the picture of render. explain-view: of a view of look
 /// - compare: two versions of a model, the paths a and b
-/// arguments: a JSON object, or null. Its names are those of the flags of the program's command, without hyphens at their begin:
-/// {"path": "model.glb", "view": ["front", "iso"], "size": "640x480"}. Each name and value means what it means to the program.
-/// scene: null, or the scene that is drawn in place of the file that `path` names. It is copied.
+/// arguments: a JSON object, or null:
+/// {"path": "model.glb", "view": ["front", "iso"], "size": [640, 480], "no_scene_lights": true, "pixel": [[320, 240], [10, 20]]}.
+/// `path` names a model, or "demo", "sphere:N", "lights:N"; "-" reads the process's standard input; compare has `a` and `b` in its place.
+/// The other names are the flags of render, for look, section, certify and explain-view those of look, and for compare its own, with - or
+/// _ between words. A value is the flag's text, a number, a list of numbers, true for a switch, or a list for a flag that may be repeated.
+/// Flags of files that are written are not taken. Files are read wherever they lie.
+/// scene: null, or the scene that is drawn in place of a file; then there is no `path`, and what loading decides (`up`, `variant`,
+/// `strict`) has no effect. It is copied, so others may use it meanwhile. compare takes none.
+/// Calls of several threads do not wait for each other. A library that was built without files (HALFLIT_BUILD_IO) refuses all calls.
 HALFLIT_C_API int32_t halflit_call(const char* name, const char* arguments, const halflit_scene* scene, halflit_answer** answer);
 /// Fails as the call would before it loads a scene: for unknown names, wrong values, and what excludes each other. `path` may be left
 /// out. No file is read.
 HALFLIT_C_API int32_t halflit_call_check(const char* name, const char* arguments);
-/// The report, a JSON object as docs/report.md has it. It is valid as long as the answer, as all that follows.
+/// The report: a JSON object in one line of UTF-8, whose keys docs/answers has (those of measure and info in info.txt). It is valid as long
+/// as the answer, as all that follows.
 HALFLIT_C_API const char* halflit_answer_report(const halflit_answer* answer);
 /// Lines for people, each with a newline at its end: faults first.
 HALFLIT_C_API const char* halflit_answer_notes(const halflit_answer* answer);
-/// 0: a negative result, for which the program ends with 1: a view with a fault, versions that differ, a blank picture.
+/// 0: a negative result, for which the program ends with 1: a view with a fault, versions that differ, a blank picture. A call that fails
+/// has no answer.
 HALFLIT_C_API int32_t halflit_answer_is_good(const halflit_answer* answer);
 /// The picture: rows of 8-bit RGBA from the top, without gaps; null where the call draws none. width and height may be null.
 HALFLIT_C_API const void* halflit_answer_picture(const halflit_answer* answer, int32_t* width, int32_t* height);
