@@ -32,7 +32,8 @@ enum class Stage : std::uint8_t { load, light, draw };
 
 struct Flag {
     std::string names;  ///< "-o,--output"; the long name is last
-    std::string form;   ///< the value: "off|on", "FILE"; words in capitals stand for something (takes_number). Empty: a switch, which takes no value
+    std::string
+        form;  ///< the value: "off|on", "FILE"; words in capitals stand for something (takes_number). Empty: a switch, which takes no value
     std::string help;
     ReadValue read;                ///< called for each use; for a switch with an empty text
     bool repeated = false;         ///< may be given several times

@@ -26,8 +26,7 @@ std::string help_of(const Setting& setting, const Settings& defaults) {
     const bool ranged = values.kind != SettingValues::Kind::named && values.list.empty() && values.high < 1e18 && values.zero.empty();
     if (ranged) help.insert(std::min(help.find(" (default"), help.size()), "; " + values.expected());
     const bool is_zero = setting.values.zero_too && setting.get(defaults) == 0.0;  // which the help describes
-    if (help.find("default") == std::string::npos && !is_zero)
-        help += fmt::format(" (default {})", setting_text(setting, defaults));
+    if (help.find("default") == std::string::npos && !is_zero) help += fmt::format(" (default {})", setting_text(setting, defaults));
     return help;
 }
 

@@ -718,8 +718,9 @@ typedef struct halflit_picture_request {
 HALFLIT_C_API int32_t halflit_picture_request_init(halflit_picture_request* request, size_t size);
 
 /// Chooses what a good picture requires, as the program does: its size, the scene's camera or a view of the whole scene, light, exposure, a
-/// grey background, and settings: samples, tone curve, anisotropy, shadows of ambient light, contact shadow, size of points. Nothing in the scene changes. request may be null: the defaults. size: width and height, may be
-/// null. lighting may be null; free it by halflit_lighting_destroy.
+/// grey background, and settings: samples, tone curve, anisotropy, shadows of ambient light, contact shadow, size of points. Nothing in the
+/// scene changes. request may be null: the defaults. size: width and height, may be null. lighting may be null; free it by
+/// halflit_lighting_destroy.
 HALFLIT_C_API int32_t halflit_choose_picture(const halflit_scene* scene, const halflit_picture_request* request, int32_t size[2],
                                              halflit_camera* camera, halflit_settings* settings, halflit_lighting** lighting);
 /// Frees light. Null is allowed.
