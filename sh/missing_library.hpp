@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -121,6 +122,26 @@ requires(is_floating_point_v<T>) from_chars_result
         return end - start;
     };
     if (end != last && *end == '-') ++end;
+    const T sign = end == first ? T{1} : T{-1};
+    const auto takes = [&](const char* word) {
+        const char* at = end;
+        for (; *word != 0; ++word, ++at)
+            if (at == last || (*at | 0x20) != *word) return false;
+        end = at;
+        return true;
+    };
+    if (takes("infinity") || takes("inf")) {
+        value = sign * numeric_limits<T>::infinity();
+        return {end, errc{}};
+    }
+    if (takes("nan")) {
+        value = numeric_limits<T>::quiet_NaN();
+        const char* at = end;
+        if (at != last && *at == '(')
+            for (++at; at != last && ((*at >= '0' && *at <= '9') || ((*at | 0x20) >= 'a' && (*at | 0x20) <= 'z') || *at == '_');) ++at;
+        if (at != last && *at == ')') end = at + 1;
+        return {end, errc{}};
+    }
     auto count = digits();
     if (end != last && *end == '.') {
         ++end;

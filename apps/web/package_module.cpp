@@ -6,6 +6,7 @@
 #include "apps/web/module.hpp"
 
 #include <emscripten/emscripten.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <optional>
@@ -44,7 +45,7 @@ EMSCRIPTEN_KEEPALIVE int halflit_info(Handle* handle, const char* flags, int jso
     });
 }
 
-/// As text: {"good", "notes", "report"} of one of the engine's calls, whose picture the next three functions have. arguments: JSON, without
+/// As text: {"good", "notes", "hash" (of the picture), "report"} of one of the engine's calls, whose picture the next three functions have. arguments: JSON, without
 /// the path of the scene's model.
 EMSCRIPTEN_KEEPALIVE int halflit_call(Handle* handle, const char* name, const char* arguments) {
     of_call.reset();
@@ -57,7 +58,9 @@ EMSCRIPTEN_KEEPALIVE int halflit_call(Handle* handle, const char* name, const ch
         for (engine::RenderOptions* const options : call->scenes) options->execution.threads = 1;
         auto answer = engine::answer_call(*call, nullptr);
         if (!answer) return tl::unexpected(answer.error());
-        handle->text = engine::to_text({{"good", answer->good}, {"notes", answer->notes}, {"report", std::move(answer->report)}}, true);
+        const std::string hash = answer->picture ? fmt::format("{:016x}", pixel_hash(answer->picture->rgba8)) : "";
+        handle->text = engine::to_text(
+            {{"good", answer->good}, {"notes", answer->notes}, {"hash", hash}, {"report", std::move(answer->report)}}, true);
         of_call = std::move(answer->picture);
         return {};
     });

@@ -73,7 +73,7 @@ Result<void> ReferenceShading::build(const PreparedData& prepared, const Lightin
 }
 
 void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, int material,
-                             shading::FragmentBlock& block, int count) const {
+                             shading::FragmentBlock& block, int count, StopSignal& stop) const {
     const auto index = static_cast<std::size_t>(material);
     const shading::MaterialPlan& material_plan = plan.materials[index];
     const HiddenShares near = hidden_shares(kernels, plan, material_plan, lights_.size(), block, count);
@@ -98,6 +98,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     // Rows of the block that the plan does not need hold what was there before.
     const shading::SlotMask filled = scene_->available_slots()[index] & material_plan.slots;
     for (int lane = 0; lane < count; ++lane) {
+        stop.check();  // a fragment below a sky takes milliseconds
         around.hidden = of_lane(near.lights, lane), around.hidden_sky = of_lane(near.sky, lane);
         around.hidden_far = of_lane(far.lights, lane), around.hidden_sky_far = of_lane(far.sky, lane);
         const reference::Rgba color = reference::shade(frame_, scene_->material(index), filled, block, lane, around);

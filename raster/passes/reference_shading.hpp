@@ -1,6 +1,7 @@
 // Shading of visible fragments by the float64 reference instead of the kernels. Errors are measured against it.
 #pragma once
 
+#include "raster/detail/stop_signal.hpp"
 #include "raster/scene/prepared_data.hpp"
 #include "shading/kernels/shade_kernels.hpp"
 #include "shading/reference/irradiance.hpp"
@@ -18,7 +19,7 @@ public:
 
     /// Writes the colour rows of lanes [0, count). The visibility of lights is that of the kernels' shadow maps.
     void shade(const shading::ShadeKernels& kernels, const shading::ShadingPlan& plan, int material, shading::FragmentBlock& block,
-               int count) const;
+               int count, StopSignal& stop) const;
 
 private:
     /// Irradiance of the environment for the materials of one lobe.

@@ -148,7 +148,7 @@ void PictureTile::shade(const FragmentList& list, const shading::LightList& ligh
     count_lights(counts_.work, material, lights, list.count);
     count_shading(counts_.work, material, list.count);
     if (pass_.reference != nullptr)
-        pass_.reference->shade(pass_.view.shade, shading, list.material, block, list.count);
+        pass_.reference->shade(pass_.view.shade, shading, list.material, block, list.count, pass_.view.stop);
     else
         pass_.view.shade.shade(shading, material, lights, block, list.count);
     counts_.fragments_shaded += static_cast<std::uint64_t>(list.count);

@@ -153,6 +153,32 @@ TEST_CASE("limits: a small file cannot take long, and --timeout ends it", "[cli]
     CHECK(folder.names() == std::vector<std::string>{"b.png", "heap.glb", "sky.hdr"});
 }
 
+TEST_CASE("limits: --timeout ends a float64 reference below a sky within half a second", "[cli]") {
+    const TemporaryFolder folder;
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run({"sphere:200", "--size", "256", "--env", "sky", "--accuracy", "reference", "--timeout", "1", "--threads",
+                                 "1", "-o", folder.file("a.png")});
+    CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 1.5);
+    CHECK(outcome.code == 5);
+}
+
+TEST_CASE("limits: surfaces whose triangles cross are compared within 10 s of processor", "[cli][slow]") {
+    const TemporaryFolder folder;
+    std::string soup = "solid soup\n";
+    std::uint32_t state = 1;
+    const auto next = [&] { return static_cast<int>((state = state * 1664525u + 1013904223u) >> 16) % 1000; };
+    for (int i = 0; i < 12000; ++i) {
+        soup += "facet normal 0 0 0 outer loop";
+        for (int k = 0; k < 3; ++k) soup += fmt::format(" vertex {} {} {}", next(), next(), next());
+        soup += " endloop endfacet\n";
+    }
+    write_contents(folder.file("soup.stl"), soup + "endsolid soup\n");
+    const double before = processor_s_of_children();
+    const Outcome outcome = run({"compare", folder.file("soup.stl"), folder.file("soup.stl"), "--size", "64", "--json", "-"});
+    CHECK(processor_s_of_children() - before < 10.0);
+    CHECK(outcome.code == 0);
+}
+
 TEST_CASE("limits: --timeout is kept among many names of a model", "[cli][slow]") {
     const TemporaryFolder folder;
     const auto list = [](std::size_t count, const char* each) {

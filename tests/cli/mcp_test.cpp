@@ -482,6 +482,12 @@ TEST_CASE("mcp: a kept model is answered sooner, and is loaded anew when its fil
     CHECK(report_of(server.call("measure", arguments_of("large.obj")))["measures"]["size"] == json({300, 0, 300}));
     write_contents(path, grid_obj(300, 2.0));
     CHECK(report_of(server.call("measure", arguments_of("large.obj")))["measures"]["size"] == json({600, 0, 600}));
+    // Another file of the same size and time, put in its place.
+    const auto time = std::filesystem::last_write_time(path);
+    write_contents(path + ".new", grid_obj(300, 3.0));
+    std::filesystem::last_write_time(path + ".new", time);
+    std::filesystem::rename(path + ".new", path);
+    CHECK(report_of(server.call("measure", arguments_of("large.obj")))["measures"]["size"] == json({900, 0, 900}));
     // Flags of loading count: z up.
     CHECK(report_of(server.call("measure", arguments_of("box.stl")))["measures"]["volume"] == 6000);
     const json turned = server.call("render", arguments_of("box.stl", {{"up", "y"}, {"size", "32"}}));

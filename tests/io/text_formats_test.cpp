@@ -188,6 +188,15 @@ TEST_CASE("models: the kind of a text is a score over its first lines", "[io]") 
     CHECK(read("# facet normal\n" + text_of_bytes(stl_text_of(letter()))).info.format == "STL");
     CHECK(read("newmtl blue\nKd 0 0 1\nusemtl blue\n" + obj).scene.materials.at(0).base_color == Vec4f{0, 0, 1, 1});
     CHECK(read("PLY\n" + text_of_bytes(ply_of(letter(), PlyKind::text)).substr(4)).info.format == "PLY");
+    const std::string stl = text_of_bytes(stl_text_of(letter())), zeros(40, '\0');
+    for (const std::string& damaged :
+         {stl + '\0', stl + zeros, each(stl, "\nfacet", std::string("\n\0facet", 7)), "solid \x07name\n" + stl}) {
+        const LoadedScene made = read(damaged);
+        CHECK(made.info.format == "STL");
+        check_same_surface(made, read(stl));
+    }
+    for (const char* before : {"\n", "  \n\n ", "# by hand\n", "\xEF\xBB\xBF\r\n"})
+        CHECK(read(before + text_of_bytes(ply_of(letter(), PlyKind::text))).info.format == "PLY");
     for (const char* none : {"hello world\nthis is prose\n", "v is a letter\nf too\n", "{", "<html>v 0 0 0</html>"})
         CHECK_FALSE(load_any(to_bytes(none), LoadOptions{}));
 }

@@ -2,6 +2,7 @@
 
 #include "apps/engine/basics/timeout.hpp"
 #include "apps/engine/job/scene_source.hpp"
+#include "apps/engine/request/flags.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -20,6 +21,15 @@ Error with_names(const Error& error) {
         message += from[at];
     }
     return {error.code, std::move(message)};
+}
+
+/// A note of several lines as several notes.
+Answer with_single_lines(Answer answer) {
+    std::vector<std::string> lines;
+    for (const std::string& note : answer.notes)
+        for (std::string& line : words_of(note, '\n')) lines.push_back(std::move(line));
+    answer.notes = std::move(lines);
+    return answer;
 }
 
 }  // namespace
@@ -48,7 +58,7 @@ Result<void> check_call(const Call& call) { return call.check ? call.check().map
 
 Result<Answer> answer_call(const Call& call, SceneKeeper* keeper) {
     for (RenderOptions* const options : call.scenes) options->keeper = keeper;
-    return within_time(call.scenes.front()->timeout_s, call.run).map_error(with_names);
+    return within_time(call.scenes.front()->timeout_s, call.run).map(with_single_lines).map_error(with_names);
 }
 
 }  // namespace halflit::engine

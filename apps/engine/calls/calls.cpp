@@ -205,12 +205,23 @@ Call compare_call() {
             [o] { return run_compare(*o); }};
 }
 
-Result<Answer> run_info(const RenderOptions& options) {
+Result<Answer> run_info(const RenderOptions& options, bool measure_parts) {
     const auto job = make_render_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
-    const auto text = describe_scene(*job, true, false);
+    const auto text = describe_scene(*job, true, measure_parts);
     if (!text) return tl::unexpected(text.error());
     return Answer{{}, Json::parse(*text)};
+}
+
+struct InfoCall : RenderOptions {
+    bool measure_parts = false;
+};
+
+Call info_call() {
+    const auto o = std::make_shared<InfoCall>();
+    const Flag parts{"--parts", "", "Measure each part: size, area, volume", set_to(o->measure_parts)};
+    return {
+        call_flags({path_flag(o->scene), parts}, render_flags(*o, kRenderSize)), {o.get()}, [o] { return run_info(*o, o->measure_parts); }};
 }
 
 Result<Answer> run_measure(const RenderOptions& options) {
@@ -311,7 +322,7 @@ std::span<const CallRow> all_calls() {
          {"path"},
          false,
          "info",
-         scene_call<run_info>},
+         info_call},
     };
     return kCalls;
 }

@@ -50,7 +50,7 @@ SceneSource copy_of(const SceneSource& source) {
 KeptScenes::FileState KeptScenes::state_of(const std::string& path) {
     platform::FileStatus status;
     if (platform::status_of(path, status) != 0) return {path};
-    return {path, static_cast<std::int64_t>(status.bytes), status.changed_ns};
+    return {path, static_cast<std::int64_t>(status.bytes), status.changed_ns, status.id};
 }
 
 bool KeptScenes::is_fresh(const Kept& kept) {

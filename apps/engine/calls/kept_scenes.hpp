@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/engine/job/scene_source.hpp"
+#include "apps/io/platform/files.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,7 @@ private:
     struct FileState {
         std::string path;
         std::int64_t size = -1, changed_ns = 0;
+        platform::FileId id{};
         friend bool operator==(const FileState&, const FileState&) = default;
     };
     struct Kept {

@@ -19,16 +19,17 @@ struct Piece {
 
 class FarthestSearch {
 public:
-    FarthestSearch(const Surface& to, double accuracy) : to_(to), accuracy_(accuracy) {}
+    FarthestSearch(const Surface& to, double accuracy, std::uint64_t most_steps) : to_(to), accuracy_(accuracy), steps_left_(most_steps) {}
 
     /// Measures one point, for the triangles around it. near: a triangle of the other surface; returns the nearest one.
-    std::uint32_t begin_at(Vec3d point, std::uint32_t near) { return measure(point, near).triangle; }
+    std::uint32_t begin_at(Vec3d point, std::uint32_t near) { return steps_left_ == 0 ? near : measure(point, near).triangle; }
 
     /// near: a triangle of the other surface. The nearer it is, the less is left to measure. at_most: a bound that is known.
     void add(const Triangle& t, std::uint32_t near, double at_most = 1e300) {
         check_time();
         at_most = std::min(at_most, bound(t, near));
         if (at_most <= found_.at_least) return;  // changes neither result
+        if (steps_left_ == 0) return leave({at_most, near, t});
         const Vec3d middle = ((t.a + t.b) + t.c) * (1.0 / 3.0);
         const double reach = std::max({length(t.a - middle), length(t.b - middle), length(t.c - middle)});
         const Surface::Nearest found = measure(middle, near, found_.at_least - reach);
@@ -44,7 +45,7 @@ public:
             else
                 keep(piece);
         const std::uint64_t most = (most_points - std::min(most_points, found_.points)) / 4;
-        const bool is_last = pieces.size() > most;
+        const bool is_last = pieces.size() > most || steps_left_ == 0;
         if (is_last)
             std::stable_sort(pieces.begin(), pieces.end(),
                              timed_less([](const Piece& a, const Piece& b) { return a.at_most > b.at_most; }));
@@ -85,6 +86,7 @@ private:
     /// The search may end at a triangle within `enough`, at most found_.at_least.
     Surface::Nearest measure(Vec3d point, std::uint32_t near, double enough = 0.0) {
         const Surface::Nearest nearest = to_.nearest(point, near, enough);
+        steps_left_ -= std::min(steps_left_, nearest.steps);
         if (++found_.points == 1 || nearest.distance > found_.at_least) found_.at_least = nearest.distance, found_.point = point;
         return nearest;
     }
@@ -96,6 +98,7 @@ private:
 
     const Surface& to_;
     double accuracy_;
+    std::uint64_t steps_left_;  ///< of all searches for a nearest triangle; 0: bounds stay as they are
     FarthestPoint found_;
     std::vector<Piece> pieces_;  ///< to divide
     Piece left_;                 ///< the one with the largest bound of those that were left
@@ -104,7 +107,7 @@ private:
 }  // namespace
 
 FarthestPoint farthest_point(const Surface& from, const Surface& to, double accuracy) {
-    FarthestSearch search(to, accuracy);
+    FarthestSearch search(to, accuracy, kMostDistanceSteps + kStepsATriangle * (from.triangles().size() + to.triangles().size()));
     // A few points first: the larger the distance that is known, the more triangles are left at once.
     constexpr std::size_t kAround = 8;  // triangles that follow each other lie beside each other
     std::vector<std::uint32_t> near;

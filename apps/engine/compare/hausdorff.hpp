@@ -19,11 +19,13 @@ struct FarthestPoint {
 /// Finds it by dividing triangles. The distance to a triangle is a convex function, so on a triangle `s` the distance to the other surface
 /// is at most the largest of the distances of the corners of `s` to any one of its triangles. Triangles whose bound is below the largest
 /// distance that was measured are left; others are measured at their middle. Those whose bound is still above that distance by more than
-/// `accuracy` are cut into four, and so on. Ends at kMostDistancePoints points with a wider bound. So the result depends on the surfaces
-/// alone, not on time or threads.
+/// `accuracy` are cut into four, and so on. Ends at kMostDistancePoints points, or when searches took kMostDistanceSteps steps and
+/// kStepsATriangle for each triangle (surfaces whose triangles cross take many), with a wider bound. So the result depends on the
+/// surfaces alone, not on time or threads.
 /// Requires: neither surface is empty.
 [[nodiscard]] FarthestPoint farthest_point(const Surface& from, const Surface& to, double accuracy);
 
+inline constexpr std::uint64_t kMostDistanceSteps = std::uint64_t{1} << 26, kStepsATriangle = 256;
 /// Most points that farthest_point measures, besides one for each triangle.
 inline constexpr std::uint64_t kMostDistancePoints = std::uint64_t{1} << 21;
 

@@ -121,6 +121,7 @@ Surface::Nearest Surface::nearest(Vec3d point, std::uint32_t guess, double enoug
     const double enough_squared = enough > 0.0 ? enough * enough : 0.0;
     double best = squared_to(guess);
     std::uint32_t found = guess;
+    std::uint64_t steps = 1;
     struct Waiting {
         double squared;
         std::uint32_t begin, count;
@@ -131,6 +132,7 @@ Surface::Nearest Surface::nearest(Vec3d point, std::uint32_t guess, double enoug
     while (waiting > 0 && best > enough_squared) {
         const Waiting next = stack[--waiting];
         if (!(next.squared < best)) continue;
+        steps += 1 + next.count;
         if (next.count > 0) {
             for (std::uint32_t i = next.begin; i < next.begin + next.count; ++i)
                 if (const double squared = squared_to(i); squared < best) best = squared, found = i;
@@ -148,7 +150,7 @@ Surface::Nearest Surface::nearest(Vec3d point, std::uint32_t guess, double enoug
         for (const std::size_t side : {1 - near, near})  // the nearer one is taken first
             if (squared[side] < best) stack[waiting++] = {squared[side], node.begin[side], node.count[side]};
     }
-    return {std::sqrt(best), found};
+    return {std::sqrt(best), found, steps};
 }
 
 }  // namespace halflit::engine

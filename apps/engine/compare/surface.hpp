@@ -26,6 +26,7 @@ public:
     struct Nearest {
         double distance = 0;
         std::uint32_t triangle = 0;  ///< index into triangles()
+        std::uint64_t steps = 0;     ///< boxes and triangles that were looked at
     };
     /// The nearest triangle. The search begins at `guess`, an index into triangles(), and is faster the nearer that is. It ends at the
     /// first triangle that it finds within `enough`. Requires: there are triangles.

@@ -68,8 +68,6 @@ int like_gltf(const FileBegin& begin) {
 
 bool is_zip(std::string_view text) { return text.starts_with("PK\3\4") || text.starts_with("PK\5\6"); }
 
-bool is_ply(std::string_view text) { return text.size() > 3 && same_word(text.substr(0, 3), "ply") && is_space(text[3]); }
-
 /// A reader that does not need the file's name.
 template <auto kRead>
 auto by_bytes(const ModelFile& file, const LoadOptions& options) {
@@ -81,7 +79,7 @@ constexpr FormatRow kFormats[] = {
      by_bytes<files_of_gltf>},
     {ModelFormat::three_mf, "3MF", ".3mf", [](const FileBegin& begin) { return certain_if(is_zip(as_text(begin.bytes))); },
      by_bytes<read_three_mf>, nullptr},
-    {ModelFormat::ply, "PLY", ".ply", [](const FileBegin& begin) { return certain_if(is_ply(as_text(begin.bytes))); }, by_bytes<read_ply>,
+    {ModelFormat::ply, "PLY", ".ply", [](const FileBegin& begin) { return certain_if(same_word(begin.word(), "ply")); }, by_bytes<read_ply>,
      by_bytes<files_of_ply>},
     {ModelFormat::gltf, "glTF", ".gltf", like_gltf, by_bytes<read_gltf>, by_bytes<files_of_gltf>},
     {ModelFormat::stl, "STL", ".stl", like_stl, by_bytes<read_stl>, nullptr},

@@ -23,13 +23,16 @@ namespace halflit::io::detail {
     return text;
 }
 
-/// True if the first kilobyte has no byte that text does not have: no control character but white space and DOS's end of file.
+/// True if at most one byte in 64 of the first kilobyte, zeros at the file's end left out, is a control character that is neither white
+/// space nor DOS's end of file: a damaged name has one, numbers of binary files have one in ten.
 [[nodiscard]] inline bool begins_as_text(std::span<const std::byte> bytes) {
-    const std::string_view begin = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024)));
-    return std::all_of(begin.begin(), begin.end(), [](char c) {
+    std::string_view begin = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 1024)));
+    while (!begin.empty() && begin.back() == 0) begin.remove_suffix(1);
+    const auto controls = std::count_if(begin.begin(), begin.end(), [](char c) {
         const auto code = static_cast<unsigned char>(c);
-        return code >= ' ' || (code >= '\t' && code <= '\r') || code == 0x1A;
+        return !(code >= ' ' || (code >= '\t' && code <= '\r') || code == 0x1A);
     });
+    return static_cast<std::size_t>(controls) * 64 <= begin.size();
 }
 
 /// White space of any kind, and control characters.

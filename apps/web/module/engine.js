@@ -242,13 +242,13 @@ function add_file(core, handle, name, bytes, of_scene) {
 // ---- pictures -----------------------------------------------------------------------------------------------------------
 export class Picture {
   #core;
-  constructor(core, width, height, place, report) {
+  constructor(core, width, height, place, report, hash = report.pixel_hash) {
     this.#core = core;
     this.width = width;
     this.height = height;
     this.pixels = new Uint8ClampedArray(copied(core, place, 4 * width * height).buffer);
     this.report = report;
-    this.hash = report.pixel_hash;
+    this.hash = hash;
   }
   encode(format) {
     if (![...kFormats, "jpeg"].includes(format))
@@ -398,10 +398,11 @@ export class Scene {
       const text_of_arguments = JSON.stringify(call_arguments(args));
       const code = with_text(core, String(name), (of) => with_text(core, text_of_arguments, (text) => core._halflit_call(handle, of, text)));
       if (code !== 0) return code;
-      answer = JSON.parse(core.UTF8ToString(core._halflit_text(handle)));
+      const { hash, ...told } = JSON.parse(core.UTF8ToString(core._halflit_text(handle)));
+      answer = told;
       const place = core._halflit_call_pixels();
       answer.picture = null;
-      if (place) answer.picture = new Picture(core, core._halflit_call_width(), core._halflit_call_height(), place, answer.report);
+      if (place) answer.picture = new Picture(core, core._halflit_call_width(), core._halflit_call_height(), place, answer.report, hash);
       return code;
     });
     return answer;
