@@ -45,8 +45,8 @@ EMSCRIPTEN_KEEPALIVE int halflit_info(Handle* handle, const char* flags, int jso
     });
 }
 
-/// As text: {"good", "notes", "hash" (of the picture), "report"} of one of the engine's calls, whose picture the next three functions have. arguments: JSON, without
-/// the path of the scene's model.
+/// As text: {"good", "notes", "hash" (of the picture), "report"} of one of the engine's calls, whose picture the next three functions have.
+/// arguments: JSON, without the path of the scene's model.
 EMSCRIPTEN_KEEPALIVE int halflit_call(Handle* handle, const char* name, const char* arguments) {
     of_call.reset();
     return web::attempt_on(*handle, [&]() -> Result<void> {
