@@ -66,7 +66,7 @@ bool is_word(const std::string& text) {
 }
 
 std::uint64_t hash_of(PictureSession& session, const Words& flags) {
-    const auto drawn = session.draw("demo", flags);
+    const auto drawn = session.draw("sphere:2000", flags);
     if (!drawn) return drawn.error().message.size();  // both refuse it with the same words
     return pixel_hash(session.picture().rgba8);
 }
