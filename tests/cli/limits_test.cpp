@@ -131,6 +131,9 @@ std::string heap_of_triangles(int copies, int instances) {
 }  // namespace
 
 TEST_CASE("limits: a small file cannot take long, and --timeout ends it", "[cli]") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    HALFLIT_SKIP("sanitizers take ten times as long");
+#endif
     const TemporaryFolder folder;
     const std::string heap = folder.file("heap.glb"), sky = folder.file("sky.hdr");
     write_contents(heap, heap_of_triangles(1500, 200));
@@ -154,6 +157,9 @@ TEST_CASE("limits: a small file cannot take long, and --timeout ends it", "[cli]
 }
 
 TEST_CASE("limits: --timeout ends a float64 reference below a sky within half a second", "[cli]") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    HALFLIT_SKIP("sanitizers take ten times as long");
+#endif
     const TemporaryFolder folder;
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = run({"sphere:200", "--size", "256", "--env", "sky", "--accuracy", "reference", "--timeout", "1", "--threads",
@@ -163,6 +169,9 @@ TEST_CASE("limits: --timeout ends a float64 reference below a sky within half a 
 }
 
 TEST_CASE("limits: surfaces whose triangles cross are compared within 10 s of processor", "[cli][slow]") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    HALFLIT_SKIP("sanitizers take ten times as long");
+#endif
     const TemporaryFolder folder;
     std::string soup = "solid soup\n";
     std::uint32_t state = 1;
