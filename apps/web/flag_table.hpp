@@ -5,7 +5,8 @@
 
 namespace halflit::web {
 
-/// {"version", "pixel_epoch", "flags": [{"names", "form", "help", "group", "repeated"}, ...]}: those that mean something to the module.
+/// {"version", "pixel_epoch", "flags": [{"names", "form", "help", "group", "number", "repeated"}, ...]}: those that mean something to the
+/// module.
 [[nodiscard]] std::string flag_table();
 
 }  // namespace halflit::web

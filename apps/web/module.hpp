@@ -43,15 +43,7 @@ int attempt_on(Handle& handle, const Work& work) {
     return attempt(handle.text, work);
 }
 
-/// Flags of a call: one word a line, which may be empty.
-[[nodiscard]] inline std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    for (std::size_t at = 0; !text.empty() && at <= text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size());
-        lines.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return lines;
-}
+/// Flags of a call: one word a line.
+[[nodiscard]] inline std::vector<std::string> lines_of(const std::string& text) { return engine::words_of(text, '\n'); }
 
 }  // namespace halflit::web

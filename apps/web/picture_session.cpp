@@ -14,7 +14,8 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
     const engine::Stopwatch watch;
     engine::RenderOptions options;
     const auto groups = engine::render_flags(options, kUsualSize);
-    if (const auto read = engine::read_flags(groups, flags); !read) return read;
+    auto read = engine::read_flags(groups, flags);
+    if (!read) return tl::unexpected(read.error());
     if (options.film.views.size() > 1) return fail(ErrorCode::usage, "--view: one side for each picture");
     options.scene = scene;
     options.execution.threads = 1;
@@ -22,8 +23,8 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
     constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // of the 2 GB that the module may take
     std::uint64_t& most = options.load.limits.max_geometry_bytes;
     most = std::min(most, kMostBytes);
-    std::string scene_flags = scene + "\n" + engine::lines_of_stage(groups, flags, engine::Stage::load);
-    std::string light_flags = engine::lines_of_stage(groups, flags, engine::Stage::light);
+    auto& [scene_flags, light_flags, draw_flags] = *read;
+    scene_flags.insert(0, scene + "\n");
     if (job_ && scene_flags == scene_flags_) {
         const bool same_light = light_flags == light_flags_;
         light_flags_ = "?";  // until it is done

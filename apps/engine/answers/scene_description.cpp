@@ -198,6 +198,8 @@ Result<Json> plan_json(const RenderJob& job) {
 
 }  // namespace
 
+Flag parts_flag(bool& measure_parts) { return {"--parts", "", "Measure each part: size, area, volume", set_to(measure_parts)}; }
+
 Result<std::string> describe_scene(const RenderJob& job, bool json, bool measure_parts) {
     const Scene& scene = job.scene();
     Json description = json ? report_head("info") : Json::object();

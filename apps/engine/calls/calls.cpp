@@ -219,9 +219,9 @@ struct InfoCall : RenderOptions {
 
 Call info_call() {
     const auto o = std::make_shared<InfoCall>();
-    const Flag parts{"--parts", "", "Measure each part: size, area, volume", set_to(o->measure_parts)};
-    return {
-        call_flags({path_flag(o->scene), parts}, render_flags(*o, kRenderSize)), {o.get()}, [o] { return run_info(*o, o->measure_parts); }};
+    return {call_flags({path_flag(o->scene), parts_flag(o->measure_parts)}, render_flags(*o, kRenderSize)), {o.get()}, [o] {
+                return run_info(*o, o->measure_parts);
+            }};
 }
 
 Result<Answer> run_measure(const RenderOptions& options) {

@@ -25,6 +25,7 @@ struct FarthestPoint {
 /// Requires: neither surface is empty.
 [[nodiscard]] FarthestPoint farthest_point(const Surface& from, const Surface& to, double accuracy);
 
+/// Boxes and triangles that farthest_point looks at: so many, and so many for each triangle of both surfaces.
 inline constexpr std::uint64_t kMostDistanceSteps = std::uint64_t{1} << 26, kStepsATriangle = 256;
 /// Most points that farthest_point measures, besides one for each triangle.
 inline constexpr std::uint64_t kMostDistancePoints = std::uint64_t{1} << 21;

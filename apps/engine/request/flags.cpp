@@ -42,24 +42,33 @@ std::vector<const Flag*> flags_of(const Command& command) {
 
 namespace {
 
-/// Calls use(group, flag, name, value) for each flag among the words, until one fails.
-template <class Use>
-Result<void> for_each_flag(const std::vector<FlagGroup>& groups, std::span<const std::string> words, const Use& use) {
+struct Found {
+    const Flag* flag = nullptr;
+    const FlagGroup* group = nullptr;
+};
+
+Found find_flag(const std::vector<FlagGroup>& groups, const std::string& name) {
+    for (const FlagGroup& group : groups)
+        for (const Flag& flag : group.flags) {
+            const std::vector<std::string> names = words_of(flag.names, ',');
+            if (std::find(names.begin(), names.end(), name) != names.end()) return {&flag, &group};
+        }
+    return {};
+}
+
+}  // namespace
+
+Result<StageLines> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words) {
+    StageLines lines;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
         const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
         const std::string name = word.substr(0, equals);
-        const Flag* flag = nullptr;
-        const FlagGroup* of = nullptr;
-        for (const FlagGroup& group : groups)
-            for (const Flag& one : group.flags) {
-                const std::vector<std::string> names = words_of(one.names, ',');
-                if (flag == nullptr && std::find(names.begin(), names.end(), name) != names.end()) flag = &one, of = &group;
-            }
+        const auto [flag, group] = find_flag(groups, name);
         if (flag == nullptr) {
             std::vector<std::string> names;
-            for (const FlagGroup& group : groups)
-                for (const Flag& one : group.flags) names.push_back(one.long_name());
+            for (const FlagGroup& one_group : groups)
+                for (const Flag& one : one_group.flags) names.push_back(one.long_name());
             return fail(ErrorCode::usage, "unknown flag " + name + did_you_mean(name, names));
         }
         const bool takes_value = !flag->form.empty(), assigned = equals != std::string::npos;
@@ -67,26 +76,9 @@ Result<void> for_each_flag(const std::vector<FlagGroup>& groups, std::span<const
         const bool has_value = assigned || i + 1 < words.size();
         const std::string value = !takes_value || !has_value ? "" : assigned ? word.substr(equals + 1) : words[++i];
         if (takes_value && value.empty()) return fail(ErrorCode::usage, name + ": expected a value, found nothing");
-        if (const auto used = use(*of, *flag, name, value); !used) return used;
+        if (const auto read = flag->read(value); !read) return fail(ErrorCode::usage, name + ": " + read.error().message);
+        lines[static_cast<std::size_t>(flag->stage.value_or(group->stage))] += flag->long_name() + "\n" + value + "\n";
     }
-    return {};
-}
-
-}  // namespace
-
-Result<void> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words) {
-    return for_each_flag(groups, words, [](const FlagGroup&, const Flag& flag, const std::string& name, const std::string& value) {
-        return flag.read(value).map_error([&](const Error& error) { return Error{ErrorCode::usage, name + ": " + error.message}; });
-    });
-}
-
-std::string lines_of_stage(const std::vector<FlagGroup>& groups, std::span<const std::string> words, Stage stage) {
-    std::string lines;
-    const auto add = [&](const FlagGroup& group, const Flag& flag, const std::string&, const std::string& value) -> Result<void> {
-        if (flag.stage.value_or(group.stage) == stage) lines += flag.long_name() + "\n" + value + "\n";
-        return {};
-    };
-    static_cast<void>(for_each_flag(groups, words, add));
     return lines;
 }
 

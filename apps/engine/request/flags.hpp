@@ -3,6 +3,7 @@
 
 #include "halflit/error.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -32,8 +33,7 @@ enum class Stage : std::uint8_t { load, light, draw };
 
 struct Flag {
     std::string names;  ///< "-o,--output"; the long name is last
-    std::string
-        form;  ///< the value: "off|on", "FILE"; words in capitals stand for something (takes_number). Empty: a switch, which takes no value
+    std::string form;   ///< the value: "off|on", "FILE"; words in capitals stand for something. Empty: a switch, which takes no value
     std::string help;
     ReadValue read;                ///< called for each use; for a switch with an empty text
     bool repeated = false;         ///< may be given several times
@@ -115,11 +115,11 @@ template <class Target, class Parser>
 /// All flags of a command, in the order of its groups.
 [[nodiscard]] std::vector<const Flag*> flags_of(const Command& command);
 
-/// Reads flags as words: each by one of its names, its value as the next word or behind '='. Errors begin with the flag's name.
-[[nodiscard]] Result<void> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words);
+/// By Stage: the flags that were read, each with its value, one a line. Equal lines make the stage equal.
+using StageLines = std::array<std::string, 3>;
 
-/// The flags of this stage among the words, each with its value, one a line. Words that are no flags end it.
-[[nodiscard]] std::string lines_of_stage(const std::vector<FlagGroup>& groups, std::span<const std::string> words, Stage stage);
+/// Reads flags as words: each by one of its names, its value as the next word or behind '='. Errors begin with the flag's name.
+[[nodiscard]] Result<StageLines> read_flags(const std::vector<FlagGroup>& groups, std::span<const std::string> words);
 
 /// True if a value of the flag may be a number: a word of its form stands for one.
 [[nodiscard]] bool takes_number(const Flag& flag);

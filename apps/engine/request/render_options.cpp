@@ -118,8 +118,7 @@ FlagGroup camera_flags(RenderOptions& o) {
         "Camera (default: the file's first camera, or a view of the whole scene)",
         {{"--camera", "INDEX|NAME|frame|all",
           "A camera of the file (default: the first); frame: no camera of the file, but a view of the whole scene; all: one picture for "
-          "each "
-          "camera of --camera-file, as -o '{view}.png'",
+          "each camera of --camera-file, as -o '{view}.png'",
           [&o](const std::string& text) { return read_camera(o, text); }},
          view_flag(o.whole_scene, "--azimuth", "DEG", "Angle of the view about the vertical: 0 is from +z, 90 from +x", o.view.azimuth_deg,
                    -3600, 3600),
@@ -165,8 +164,7 @@ FlagGroup camera_flags(RenderOptions& o) {
          of_stage(Stage::load, {"--ground", "", "Add a ground below the scene that shows only shadows", set_to(o.ground)}),
          of_stage(Stage::load, {"--up", form_of(kUpAxisNames),
                                 fmt::format("Axis of the model that points up (default {}, and z for STL and 3MF). Views, the ground and "
-                                            "the light from above follow it; "
-                                            "coordinates stay those of the file",
+                                            "the light from above follow it; coordinates stay those of the file",
                                             name_of(UpAxis::y, kUpAxisNames)),
                                 [&o](const std::string& text) {
                                     UpAxis up{};

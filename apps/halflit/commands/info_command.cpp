@@ -34,9 +34,7 @@ Result<int> run_info(const InfoOptions& options) {
 Command info_command() {
     const auto options = std::make_shared<InfoOptions>();
     auto groups = render_flags(*options, kRenderSize);
-    groups.push_back({"Output",
-                      {{"--json", "", "Print one JSON object", set_to(options->json)},
-                       {"--parts", "", "Measure each part: size, area, volume", set_to(options->measure_parts)}}});
+    groups.push_back({"Output", {{"--json", "", "Print one JSON object", set_to(options->json)}, parts_flag(options->measure_parts)}});
     return {"info",
             "Describe a scene, and what drawing it requires",
             {scene_argument(*options, true)},
