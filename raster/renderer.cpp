@@ -127,7 +127,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
             return tl::unexpected<Error>(ok.error());
     report.ms.shadows = watch.lap();
 
-    const Output output(target, plan.written);
+    const Output output(target, plan.written, settings.alpha == AlphaSpace::display && !(plan.background_linear.w > 0.0f));
     if (auto ok = geometry.make(scene, plan.picture, raster, executor, output.has_triangle()); !ok)
         return tl::unexpected<Error>(ok.error());
     report.ms.cull = geometry.times_ms().cull;

@@ -44,8 +44,8 @@ struct Environment {
     std::vector<float> rgb;
     int width = 0, height = 0;
     double rotate_rad = 0.0;
-    bool studio = false;      ///< it is the built-in studio
-    bool kept_light = false;  ///< EnvironmentOptions::keep_light: the suns have their patches
+    float studio_level = 0.0f;  ///< of the built-in studio; 0: it is another environment
+    bool kept_light = false;    ///< EnvironmentOptions::keep_light: the suns have their patches
 };
 
 }  // namespace halflit

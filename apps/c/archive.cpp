@@ -320,7 +320,7 @@ Result<std::vector<std::byte>> archived(const halflit_scene& scene) {
     Archive a;
     a.scene = scene.scene;
     if (const auto& environment = scene.scene.environment) {
-        if (environment->rgb.empty() || environment->studio)
+        if (environment->rgb.empty() || environment->studio_level != 0.0f)
             return fail(ErrorCode::usage, "expected a scene without a studio, and whose environment kept its image");
         a.environment = {{environment->width, environment->height, environment->rgb, environment->calibrated},
                          environment->rotate_rad,

@@ -54,7 +54,8 @@ std::shared_ptr<const Environment> studio_environment(const Camera& camera, doub
     const sh::EquirectView image = light->image();
     made->rgb.assign(image.rgb.begin(), image.rgb.end());
     made->width = image.width, made->height = image.height;
-    made->calibrated = made->studio = made->kept_light = true;
+    made->calibrated = made->kept_light = true;
+    made->studio_level = level;
     return made;
 }
 

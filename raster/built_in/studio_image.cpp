@@ -1,5 +1,4 @@
-// A photographer's studio: a dim room with a bright horizon, soft boxes, and a floor that returns some light. Directions in it are those of
-// a viewer who looks along -z.
+// A studio in daylight: large bright soft boxes in a grey room, and a light floor. Directions in it are those of a viewer who looks along -z.
 #include "halflit/scene.hpp"
 
 #include "sh/arc.hpp"
@@ -10,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace halflit {
 namespace {
@@ -50,26 +50,29 @@ private:
     double per_width_, per_height_;  ///< 1 / tan of half the angle
 };
 
-/// Walls, ceiling and floor.
+/// Walls, ceiling and floor. The right side is darker, so that faces of a box differ; a strip below the horizon and the side of the viewer are,
+/// too, so that metals show their curvature.
 Vec3d room(Vec3d d) {
-    const Vec3d horizon{0.251, 0.256, 0.263}, wall{0.164, 0.171, 0.184}, ceiling{0.097, 0.103, 0.116};
-    const Vec3d near_floor{0.193, 0.186, 0.176}, floor{0.097, 0.092, 0.087};
-    const Vec3d above = mixed(mixed(horizon, wall, smoothstep(d.y / 0.35)), ceiling, smoothstep((d.y - 0.3) / 0.7));
-    const Vec3d below = mixed(near_floor, floor, smoothstep(d.y / -0.8));
-    // The room is darker behind the viewer: mirrors that face him get contrast.
-    const double behind = smoothstep((d.z - 0.1) / 0.9) * smoothstep(0.5 + 3.0 * d.y);
-    return mixed(below, above, smoothstep(0.5 + 10.0 * d.y)) * (1.0 - 0.45 * behind);
+    constexpr double kDarkerRight = 0.35, kDarkerBehind = 0.27, kBlend = 0.12, kStripHeight = -0.226, kStripReach = 0.236;
+    const Vec3d horizon{0.40, 0.397, 0.39}, ceiling{0.154, 0.162, 0.174}, near_floor{0.735, 0.72, 0.695}, floor{0.435, 0.425, 0.41};
+    const Vec3d strip{0.23, 0.227, 0.22};
+    const Vec3d above = mixed(horizon, ceiling, smoothstep(d.y / 0.9)), below = mixed(near_floor, floor, smoothstep(d.y / -0.8));
+    const double apart = d.y - kStripHeight, level = std::sqrt(std::max(0.0, 1.0 - d.y * d.y));
+    const Vec3d light = mixed(below, above, smoothstep(0.5 + 0.5 * d.y / kBlend)) -
+                        strip * (level * smoothstep(1.0 - (apart < 0.0 ? -apart : apart) / kStripReach));
+    const double right = smoothstep(0.5 + 0.5 * d.x) * smoothstep((d.y + 0.6) / 0.8);
+    const double behind = smoothstep((d.z - 0.1) / 0.9) * smoothstep(0.5 + 2.0 * d.y);
+    return light * ((1.0 - kDarkerRight * right) * (1.0 - kDarkerBehind * behind));
 }
 
 }  // namespace
 
 EnvironmentImage studio_image() {
     const FpEnvironment environment_of_host;
-    const std::array<SoftBox, 5> boxes{SoftBox{-50, 40, 54, 44, {2.2, 2.13, 2.0}},     // the main one, to the left above the viewer
-                                       SoftBox{75, 22, 44, 80, {0.35, 0.37, 0.41}},    // a tall one fills the right side
-                                       SoftBox{150, 38, 76, 34, {1.25, 1.29, 1.38}},   // behind the model: edges
-                                       SoftBox{-125, 15, 30, 90, {1.04, 1.01, 0.98}},  // a strip behind it to the left
-                                       SoftBox{0, 85, 70, 70, {0.66, 0.66, 0.66}}};    // overhead
+    const std::array<SoftBox, 4> boxes{SoftBox{-45, 51, 54, 44, {2.42, 2.38, 2.28}},   // the main one, to the left above the viewer
+                                       SoftBox{78, 20, 36, 70, {1.36, 1.40, 1.47}},    // a tall one on the right side
+                                       SoftBox{150, 38, 76, 34, {0.86, 0.88, 0.92}},   // behind the model: edges
+                                       SoftBox{0, 86, 70, 70, {0.66, 0.66, 0.66}}};    // overhead
     EnvironmentImage image{2 * kStudioRows, kStudioRows, {}, true};
     image.rgb.reserve(static_cast<std::size_t>(6) * kStudioRows * kStudioRows);
     for (int y = 0; y < kStudioRows; ++y)

@@ -91,17 +91,34 @@ bool gives_light(const Light& light) { return !(light.color_linear == Vec3f{}); 
 
 bool is_dark(const Ambient& ambient) { return ambient.sky_linear == Vec3f{} && ambient.ground_linear == Vec3f{}; }
 
-/// The studio's share beside lights of a file, by whose exposure white comes out as 1. A sun's far sides stay dark, but can be read; point
-/// lights seldom reach all of a scene.
-constexpr float kStudioUnderSun = 0.15f, kStudioUnderLamps = 0.5f;
+/// The studio's share beside lights that the caller chose: their far sides stay dark, but can be read.
+constexpr float kStudioUnderLights = 0.15f;
+/// Share of the key light that suns of a file take the place of.
+constexpr float kMostKeyReplaced = 0.85f;
+
+/// Light that suns shed on faces between up and the viewer, in parts of white: they need the key light so much less.
+float sunlit_share(const Lighting& light, const Camera& camera, float level) {
+    const Vec4f back = camera.world_from_camera.c[2];
+    const Vec3f towards = normalize_or(normalize_or(Vec3f{back.x, back.y, back.z}, {0, 0, 1}) + Vec3f{0, 1, 0}, {0, 1, 0});
+    double sum = 0.0;
+    for (const Light& one : light.lights)
+        if (!kind_of(one.type).placed)
+            sum += sh::luminance(to_double(one.color_linear)) * std::max(0.0, -dot(to_double(one.direction_ws), to_double(towards)));
+    return static_cast<float>(std::clamp(sum / level, 0.0, 1.0));
+}
 
 /// Adds the light that is lacking. Returns the exposure.
 float complete(Lighting& light, const Bounds& bounds, const Camera& camera, const AutoOptions& options) {
-    const bool in_studio = light.environment != nullptr && light.environment->studio;
+    const bool in_studio = light.environment != nullptr && light.environment->studio_level != 0.0f;
     const bool always = options.studio == StudioUse::always && !options.ambient_linear;
     if (light.environment != nullptr && !in_studio && !always) return environment_exposure(*light.environment);
     const bool dark = light.environment == nullptr && is_dark(light.ambient);
     const bool has_lights = std::any_of(light.lights.begin(), light.lights.end(), gives_light);
+    const bool unknown_unit = !light.calibrated && has_lights;
+    const auto set_studio = [&](float level) {
+        light.ambient = {};
+        light.environment = studio_environment(camera, options.studio_turn_rad, level);
+    };
     if (!has_lights && dark && options.add_lights) {
         light.calibrated = true;
         if (options.studio == StudioUse::never || options.ambient_linear)
@@ -109,24 +126,24 @@ float complete(Lighting& light, const Bounds& bounds, const Camera& camera, cons
         else
             add_studio(light, camera, options.studio_turn_rad);
     }
-    const bool unknown_unit = !light.calibrated && has_lights;
-    const float exposure = unknown_unit ? auto_exposure(light, bounds) : 1.0f;
-    const auto add_share = [&](float share) {
-        light.ambient = {};
-        light.environment = studio_environment(camera, options.studio_turn_rad, share / exposure);
-    };
-    if (options.ambient_linear) {
+    // Lights of a file add to the studio, so that a file is not darker with them than without; strong ones are as bright as white in it. Suns
+    // that light what the viewer sees take the key light's place, so that their shadows are seen.
+    const bool adds = unknown_unit && dark && options.studio == StudioUse::for_dark && !options.ambient_linear;
+    const float light_level = unknown_unit ? 1.0f / auto_exposure(light, bounds) : 1.0f;
+    const float level = unknown_unit && in_studio ? light.environment->studio_level : adds ? std::max(light_level, 1.0f) : light_level;
+    if (adds) {
+        const float key = 1.0f - kMostKeyReplaced * sunlit_share(light, camera, level);
+        add_studio(light, camera, options.studio_turn_rad, level);
+        light.lights.back().color_linear = light.lights.back().color_linear * key;
+    } else if (options.ambient_linear)
         light.ambient = {*options.ambient_linear, *options.ambient_linear};
-    } else if (always) {
-        if (light.environment == nullptr || !light.environment->studio) add_share(1.0f);
-    } else if (has_lights && dark &&
-               (options.studio == StudioUse::under_lights || (unknown_unit && options.studio == StudioUse::for_dark))) {
-        const bool sun = std::any_of(light.lights.begin(), light.lights.end(), [](const Light& one) { return !kind_of(one.type).placed; });
-        add_share(sun || !unknown_unit ? kStudioUnderSun : kStudioUnderLamps);
-    } else if (unknown_unit && dark) {
+    else if (always && !in_studio)
+        set_studio(level);
+    else if (has_lights && dark && options.studio == StudioUse::under_lights)
+        set_studio(kStudioUnderLights * level);
+    else if (unknown_unit && dark)
         light.ambient = soft_ambient(light, bounds);
-    }
-    return exposure;
+    return 1.0f / level;
 }
 
 /// The largest size with the camera's aspect ratio that fits into the usual one.
@@ -163,6 +180,7 @@ Settings usual_settings() {
     Settings settings;
     settings.samples = 4;
     settings.tone_curve = ToneCurve::neutral;
+    settings.alpha = AlphaSpace::display;
     settings.shading.anisotropy = 4;
     settings.sky_shadows = kSkyShadowsAuto;
     settings.contact_shadow = 0.85f;

@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t kMostElements = std::size_t{1} << 16;  ///< triangles, lines or points that are looked at
 /// At a silhouette: the light that smooth and rough metals mirror to the eye, divided by what a white surface scatters.
-constexpr double kSmoothMirrors = 0.24, kRoughMirrors = 0.66;
+constexpr double kSmoothMirrors = 0.54, kRoughMirrors = 0.55;
 /// sRGB codes of the usual background, and of that behind dark surfaces.
 constexpr int kDarkBackground[] = {0x2c, 0x30, 0x36}, kLightBackground[] = {0xb4, 0xba, 0xc2};
 /// Edges of models with this luminance come out as about 105 codes, between the two backgrounds.
-constexpr double kDark = 0.24;
+constexpr double kDark = 0.165;
 
 /// A sum of what is given back, by area.
 struct Mean {
@@ -43,6 +43,8 @@ SurfaceLight light_of(const Scene& scene, const Material* material) {
     const double part = material->unlit ? 1.0 : 1.0 - (1.0 - mirrored) * share(material->metallic, metal.z);
     SurfaceLight light;
     light.back = Vec3d{material->base_color.x * color.x, material->base_color.y * color.y, material->base_color.z * color.z} * part;
+    // What is seen through glass is the background: it is its reflections that have to stand out.
+    if (material->transmits()) light.back = light.back * (1.0 - share(material->transmission, mean(TextureSlot::transmission).x));
     if (!material->unlit) light.own = {material->emissive.x * own.x, material->emissive.y * own.y, material->emissive.z * own.z};
     if (material->alpha_mode == AlphaMode::blend) light.alpha = share(material->base_color.w, 1.0);
     return light;

@@ -1,5 +1,7 @@
 #include "raster/passes/output.hpp"
 
+#include "raster/passes/display_alpha.hpp"
+
 #include <cstring>
 #include <limits>
 #include <string>
@@ -57,10 +59,11 @@ Result<void> check_target(const Target& target, const Region& region) {
     return {};
 }
 
-Output::Output(const Target& target, const Region& region)
-    : straight_rgba_(target.format == PixelFormat::rgba8 && !target.premultiplied),
+Output::Output(const Target& target, const Region& region, bool display_alpha)
+    : as_they_are_(target.format == PixelFormat::rgba8 && !target.premultiplied && !display_alpha),
       bgra_(target.format == PixelFormat::bgra8),
-      premultiplied_(target.premultiplied) {
+      premultiplied_(target.premultiplied),
+      display_alpha_(display_alpha) {
     const int width = target.region_alone ? region.width : target.width;
     const int x0 = target.region_alone ? region.x : 0, y0 = target.region_alone ? region.y : 0;
     codes = {target.pixels, target.row_bytes, 4, width, x0, y0};
@@ -79,10 +82,11 @@ Output::Output(const Target& target, const Region& region)
 }
 
 void Output::finish_codes(std::uint32_t* codes_of_pixels, int count) const {
-    if (straight_rgba_) return;
+    if (as_they_are_) return;
     for (int i = 0; i < count; ++i) {
         std::uint8_t rgba[4];
         std::memcpy(rgba, codes_of_pixels + i, 4);
+        if (display_alpha_) set_display_alpha(rgba);
         if (premultiplied_)
             for (int c = 0; c < 3; ++c) rgba[c] = static_cast<std::uint8_t>(times(rgba[c], rgba[3]));
         if (bgra_) std::swap(rgba[0], rgba[2]);

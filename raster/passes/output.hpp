@@ -39,8 +39,8 @@ private:
 
 class Output {
 public:
-    /// `region`: the pixels that are drawn, never empty.
-    Output(const Target& target, const Region& region);
+    /// `region`: the pixels that are drawn, never empty. display_alpha: codes get an alpha for blends of codes (display_alpha.hpp).
+    Output(const Target& target, const Region& region, bool display_alpha = false);
 
     /// Turns straight RGBA codes into those that the target holds, in place.
     void finish_codes(std::uint32_t* codes_of_pixels, int count) const;
@@ -69,8 +69,8 @@ public:
     [[nodiscard]] bool has_material() const { return shading_normal || albedo || position || lights; }
 
 private:
-    bool straight_rgba_;  ///< codes are copied as they are
-    bool bgra_, premultiplied_;
+    bool as_they_are_;  ///< codes are copied
+    bool bgra_, premultiplied_, display_alpha_;
 };
 
 }  // namespace halflit::raster

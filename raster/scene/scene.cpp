@@ -36,7 +36,7 @@ namespace {
 /// In camera space it comes from the left, above and behind the viewer: light from the side shows the form, and little of what the viewer
 /// sees is unlit.
 Light key_light(const Camera& camera, Vec3f color_linear) {
-    const Vec3f travels_vs{0.45f, -0.60f, -0.66f};
+    const Vec3f travels_vs{0.48f, -0.70f, -0.53f};
     Light key;
     key.type = LightType::directional;
     key.direction_ws = normalize_or(transform_vector(camera.world_from_camera, travels_vs), {0, -1, 0});
@@ -46,12 +46,12 @@ Light key_light(const Camera& camera, Vec3f color_linear) {
 
 }  // namespace
 
-void add_studio(Lighting& light, const Camera& camera, double turn_rad) {
+void add_studio(Lighting& light, const Camera& camera, double turn_rad, float level) {
     const FpEnvironment environment_of_host;
-    // A white surface that faces the key light reaches 1 with the studio's light, 0.91 after the neutral tone curve.
-    light.lights.push_back(key_light(camera, {0.52f, 0.51f, 0.49f}));
+    // By the light of both, grey faces that look up, left and right differ by 28 codes and more, and codes are about those of base colours.
+    light.lights.push_back(key_light(camera, Vec3f{1.15f, 1.12f, 1.07f} * level));
     light.ambient = {};
-    light.environment = studio_environment(camera, turn_rad);
+    light.environment = studio_environment(camera, turn_rad, level);
 }
 
 void add_default_lights(Lighting& light, const Camera& camera) {

@@ -75,6 +75,8 @@ TEST_CASE(
     s.contact_shadow = Settings{}.contact_shadow;
     s.tone_curve = Settings{}.tone_curve;
     s.shading.anisotropy = Settings{}.shading.anisotropy;
+    CHECK(s.alpha == AlphaSpace::display);
+    s.alpha = Settings{}.alpha;
     s.background_linear = Settings{}.background_linear;
     CHECK(s == Settings{});
 }
@@ -129,7 +131,7 @@ TEST_CASE("setup: without the studio, a scene without light gets the default lig
     CHECK(setup.settings.exposure == 1.0f);
 }
 
-TEST_CASE("setup: lights of a file get an exposure that makes them 1, and a share of the studio", "[raster][setup]") {
+TEST_CASE("setup: lights of a file add to the studio, and get an exposure that makes them 1 at most", "[raster][setup]") {
     Scene dark = box_scene();
     static_cast<void>(set_up(dark, 200, 100));
     const double whole = environment_level(*dark.environment);
@@ -143,15 +145,26 @@ TEST_CASE("setup: lights of a file get an exposure that makes them 1, and a shar
         const double luminance = falloff * (0.2126 * 350 + 0.7152 * 200 + 0.0722 * 100);  // Rec. 709
         CHECK(double{setup.settings.exposure} == Approx(1 / luminance).epsilon(1e-4));
         REQUIRE(scene.environment != nullptr);
-        const double share = type == LightType::point ? 0.5 : 0.15;
-        CHECK(environment_level(*scene.environment) * double{setup.settings.exposure} == Approx(share * whole).epsilon(1e-5));
+        CHECK(environment_level(*scene.environment) * double{setup.settings.exposure} == Approx(whole).epsilon(1e-5));
         CHECK(same(scene.ambient, Ambient{}));
-        CHECK(scene.lights.size() == 2);
+        REQUIRE(scene.lights.size() == 3);  // and the key light
+        const double key = double{scene.lights[2].color_linear.y} * double{setup.settings.exposure};
+        if (type == LightType::point)
+            CHECK(key == Approx(dark.lights[0].color_linear.y).epsilon(1e-5));
+        else
+            CHECK(key < 0.6 * double{dark.lights[0].color_linear.y});  // suns that light what is seen take its place
         const std::shared_ptr<const Environment> studio = scene.environment;
         const AutoSetup again = set_up(scene, 200, 100);
         CHECK(scene.environment == studio);
         CHECK(again.settings == setup.settings);
     }
+    // Weak lights keep their strength: a lamp that reaches nothing changes nothing.
+    Scene faint = box_scene();
+    faint.lights = {sun({0.5f, 0, 0})};
+    faint.lights[0].type = LightType::point, faint.lights[0].position_ws = {100, 0, 0}, faint.lights[0].range = 1;
+    faint.calibrated = false;
+    CHECK(set_up(faint, 200, 100).settings.exposure == 1.0f);
+    CHECK(faint.lights[1] == dark.lights[0]);
     // Ambient light that is there stays.
     Scene own = box_scene();
     own.lights = {sun({300, 200, 100})};

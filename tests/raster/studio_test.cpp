@@ -1,4 +1,5 @@
 // The built-in studio: how bright it is, where its light comes from, and that it turns with the camera.
+#include "halflit/auto_setup.hpp"
 #include "halflit/renderer.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
@@ -97,16 +98,16 @@ TEST_CASE("studio: white surfaces reflect what its header says, brightest upward
     const EnvironmentImage image = studio_image();
     CHECK(image.calibrated);
     REQUIRE(image.rgb.size() == static_cast<std::size_t>(3 * image.width * image.height));
-    CHECK(reflected(image, {0, 1, 0}) == Approx(0.6).margin(0.1));
-    CHECK(reflected(image, {0, -1, 0}) == Approx(0.1).margin(0.05));
+    CHECK(reflected(image, {0, 1, 0}) == Approx(0.7).margin(0.05));
+    CHECK(reflected(image, {0, -1, 0}) == Approx(0.5).margin(0.05));
     double least = 1e9, most = 0;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 32; ++x) {
             const double light = reflected(image, sh::equirect_direction((x + 0.5) / 32, (y + 0.5) / 16));
             least = std::min(least, light), most = std::max(most, light);
         }
-    CHECK(least > 0.08);  // nothing is lost in black
-    CHECK(most < 0.75);   // and with the key light white stays near 1
+    CHECK(least > 0.35);  // nothing is lost in black
+    CHECK(most < 0.8);    // the key light is as strong
     // More light comes from the viewer's left than from the right, and a mirror sees soft boxes well above the walls.
     CHECK(reflected(image, {-0.6, 0.6, 0.52}) > reflected(image, {0.6, 0.6, 0.52}));
     CHECK(*std::max_element(image.rgb.begin(), image.rgb.end()) > 1.5f);
@@ -127,6 +128,62 @@ TEST_CASE("studio: a sphere looks the same from every side", "[raster][studio]")
                 }
         CHECK(worst < 0.02);  // the facets of the sphere, and the bands left out
     }
+}
+
+TEST_CASE("studio: faces of a grey box differ by 28 codes and more, however it is turned", "[raster][studio]") {
+    Scene scene;
+    scene.meshes.push_back(make_box({1, 1, 1}));
+    scene.meshes[0].material = 0;
+    scene.instances.push_back({0, {}});
+    scene.materials.resize(1);
+    scene.materials[0].metallic = 0;
+    scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};
+    constexpr int kSide = 64;
+    for (int azimuth = 0; azimuth < 90; azimuth += 15) {
+        ViewSettings view;
+        view.azimuth_deg = static_cast<float>(azimuth), view.elevation_deg = 20;
+        AutoSetup setup = auto_setup(scene, kSide, kSide, {.frame = true, .view = view});
+        setup.settings.samples = 1;
+        std::vector<std::uint8_t> pixels(4 * kSide * kSide);
+        std::vector<float> normal(3 * kSide * kSide);
+        scene.lights = setup.light.lights, scene.environment = setup.light.environment;
+        REQUIRE(render(scene, setup.camera, setup.settings,
+                       {.width = kSide, .height = kSide, .pixels = pixels.data(), .normal = normal.data()}));
+        scene.lights.clear(), scene.environment = nullptr;
+        // The mean code of each face that is more than a line.
+        double sum[6] = {}, count[6] = {};
+        for (std::size_t i = 0; i < kSide * kSide; ++i)
+            for (std::size_t face = 0; face < 6; ++face)
+                if (normal[3 * i + face / 2] * (face % 2 == 0 ? 1.0f : -1.0f) > 0.9f) sum[face] += pixels[4 * i + 1], count[face] += 1;
+        std::vector<double> codes;
+        for (std::size_t face = 0; face < 6; ++face)
+            if (count[face] > 60) codes.push_back(sum[face] / count[face]);
+        CAPTURE(azimuth, codes);
+        CHECK(codes.size() >= 2);
+        std::sort(codes.begin(), codes.end());
+        for (std::size_t i = 1; i < codes.size(); ++i) CHECK(codes[i] - codes[i - 1] >= 28);
+        CHECK(codes.front() > 100);
+    }
+}
+
+TEST_CASE("studio: a mirror shows light and dark, a third of white in the median", "[raster][studio]") {
+    const EnvironmentImage image = studio_image();
+    // Directions that a ball mirrors to a viewer on +z, at equal areas of its disc.
+    std::vector<double> light;
+    for (double y = -0.95; y < 1; y += 0.05)
+        for (double x = -0.95; x < 1; x += 0.05) {
+            if (x * x + y * y > 0.95) continue;
+            const Vec3d normal{x, y, std::sqrt(1 - x * x - y * y)};
+            const sh::EquirectPoint at = sh::equirect_point(normal * (2 * normal.z) - Vec3d{0, 0, 1});
+            const auto row = std::min(static_cast<int>(at.v * image.height), image.height - 1);
+            const auto column = std::min(static_cast<int>(at.u * image.width), image.width - 1);
+            light.push_back(image.rgb[static_cast<std::size_t>(3 * (row * image.width + column) + 1)]);
+        }
+    std::sort(light.begin(), light.end());
+    const auto part = [&](double share) { return light[static_cast<std::size_t>(share * static_cast<double>(light.size()))]; };
+    CHECK(part(0.5) > 0.35);
+    CHECK(part(0.1) < 0.25);
+    CHECK(part(0.95) > 1.0);
 }
 
 TEST_CASE("studio: cameras that look straight down or up have it upright in their picture", "[raster][studio]") {

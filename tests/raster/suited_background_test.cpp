@@ -45,6 +45,9 @@ TEST_CASE("background: the mean luminance of surfaces counts areas, colours, emi
     two.materials[1].alpha_mode = AlphaMode::blend;
     two.materials[1].base_color.w = 0;
     CHECK(surface_luminance(two) == Approx(1));
+    Scene glass = box_of({1, 1, 1, 1});
+    glass.materials[0].transmission = 0.75f;
+    CHECK(surface_luminance(glass) == Approx(0.25));
     Scene glowing = box_of({0, 0, 0, 1});
     glowing.materials[0].emissive = {0.5f, 0.5f, 0.5f};
     CHECK(surface_luminance(glowing) == Approx(0.5));

@@ -146,7 +146,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
     job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
-    Vec4f background = choice->settings.background_linear;
+    Vec4f background = (options.one_of_many ? usual_settings() : choice->settings).background_linear;
     if (options.kept_view) {
         const Vec3f kept = to_float(options.kept_view->background);
         background = {kept.x, kept.y, kept.z, 1.0f};

@@ -56,6 +56,7 @@ struct RenderOptions {
     bool fov_given = false;                               ///< --fov was given
     std::optional<Vec3d> camera_position, camera_target;  ///< in the file's world
     PartFlags parts{};                                    ///< what is drawn of the scene, and how
+    bool one_of_many = false;                             ///< pictures that are seen side by side share the usual background
     std::optional<KeptView> kept_view{};                  ///< draws by this one what would be framed; of golden alone
     std::vector<GivenSection> sections{};                 ///< planes that cut the scene
     double hatch_spacing = 0.0;                           ///< of caps, in the file's world; 0: chosen

@@ -87,7 +87,13 @@ Result<void> spare_inputs(const SheetOptions& options, const std::vector<std::st
     return {};
 }
 
-Result<Image> draw(const SheetOptions& options, const std::string& name, PictureSize size) {
+/// A picture, and its background.
+struct Cell {
+    Image image;
+    Vec4f background_linear;
+};
+
+Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureSize size) {
     try {
         auto job = make_render_job(options, size);
         if (!job) return tl::unexpected(job.error());
@@ -97,10 +103,17 @@ Result<Image> draw(const SheetOptions& options, const std::string& name, Picture
         if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
         for (const auto& warnings : {job->warnings, rendered->warnings})
             for (const std::string& warning : warnings) print_warning(name + ": " + warning);
-        return image;
+        return Cell{std::move(image), job->settings.background_linear};
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, name + ": out of memory");
     }
+}
+
+/// The background of most of the pictures; of two that as many have, the one that comes first.
+std::optional<Vec4f> common_background(const std::vector<std::optional<Vec4f>>& backgrounds) {
+    const auto uses = [&](const std::optional<Vec4f>& one) { return one ? std::count(backgrounds.begin(), backgrounds.end(), one) : 0; };
+    const auto most = std::max_element(backgrounds.begin(), backgrounds.end(), [&](auto& a, auto& b) { return uses(a) < uses(b); });
+    return most == backgrounds.end() ? std::nullopt : *most;
 }
 
 Result<int> run_sheet(const SheetOptions& options) {
@@ -132,16 +145,22 @@ Result<int> run_sheet(const SheetOptions& options) {
         print_error(error.message);
         if (code == 0) code = static_cast<int>(error.code);
     };
-    for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+    std::vector<std::optional<Vec4f>> backgrounds(options.scenes.size());
+    const auto add = [&](std::size_t i, std::optional<Vec4f> background) {
         SheetOptions one = options;
         one.scene = options.scenes[i];
-        page.add_lines(i, name_lines(names[i], layout->cell_width()), Align::middle);
-        if (const auto picture = draw(one, names[i], size)) {
-            page.add_picture(i, *picture, false);
+        if (background) one.background_linear = background;
+        if (const auto cell = draw(one, names[i], size)) {
+            page.add_picture(i, cell->image, false);
+            backgrounds[i] = cell->background_linear;
         } else {
-            failed(picture.error());
-            page.add_error(i, without_path(picture.error().message, one.scene));
+            failed(cell.error());
+            page.add_error(i, without_path(cell.error().message, one.scene));
         }
+    };
+    for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+        page.add_lines(i, name_lines(names[i], layout->cell_width()), Align::middle);
+        add(i, std::nullopt);
         if (references[i].empty()) continue;
         const auto reference = io::read_picture(references[i]);
         if (reference)
@@ -149,6 +168,9 @@ Result<int> run_sheet(const SheetOptions& options) {
         else
             failed(reference.error());
     }
+    const std::optional<Vec4f> common = common_background(backgrounds);
+    for (std::size_t i = 0; i < backgrounds.size(); ++i)
+        if (backgrounds[i] && backgrounds[i] != common) add(i, common);
     const auto bytes = encode_image(page.image(), *format);
     if (!bytes) return tl::unexpected(bytes.error());
     if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());

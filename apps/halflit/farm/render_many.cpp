@@ -130,6 +130,7 @@ private:
             one.scene = scene;
             one.report.clear();
             one.place = ScenePlace{i, options_.scenes.size()};
+            one.one_of_many = options_.scenes.size() > 1;
             auto name = picture_name(options_.each.output, options_.each.format, scene, i);
             if (!name) return tl::unexpected(name.error());
             one.output = std::move(*name);

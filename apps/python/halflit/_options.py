@@ -72,6 +72,7 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "edge_width": ("edge_width", "float"),
     "max_layers": ("max_layers", "int"),
     "contact_shadow": ("contact_shadow", "float"),
+    "alpha": ("alpha", "ALPHA_SPACE"),
 }
 #: Keywords that have another place here.
 _ELSEWHERE = {

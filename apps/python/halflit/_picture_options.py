@@ -106,6 +106,8 @@ class PictureOptions(ViewOptions, total=False):
         contact_shadow: Opacity of the soft shadow below a model that stands, over the background, where all light from above is
             hidden: 0 to 1. There is none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below.
             0: none. (0.85)
+        alpha: of codes; floats have the share of light, and so has a background that is partly transparent: "linear", "display"
+            (display)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)
@@ -156,6 +158,7 @@ class PictureOptions(ViewOptions, total=False):
     edge_width: float
     max_layers: int
     contact_shadow: float
+    alpha: Literal["linear", "display"]
     # How it is computed.
     threads: int
     isa: Isa

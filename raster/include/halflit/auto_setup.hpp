@@ -16,10 +16,10 @@ namespace halflit {
 
 /// When auto_setup() puts the scene into the built-in studio (studio_environment).
 enum class StudioUse : std::uint8_t {
-    for_dark,  ///< in full where the scene has no light; a share beside lights of an unknown unit, if they are all
+    for_dark,  ///< in full where the scene has no light from all around; lights of an unknown unit, as those of files, add to it
     always,    ///< always, in full, instead of the scene's ambient light and environment
     never,     ///< never: add_default_lights() takes its place
-    /// As for_dark, and 0.15 of it under lights whose unit is known too, which leave their far sides black and metals nothing to mirror.
+    /// As for_dark, but 0.15 of it under any lights, which leave their far sides black and metals nothing to mirror.
     under_lights
 };
 
@@ -71,9 +71,9 @@ struct PictureChoice : AutoSetup {
 
 /// Chooses camera, light and exposure for a picture of width x height pixels. To the scene's own light it adds what that lacks:
 ///   - no light at all: the studio with a key light (add_studio; StudioUse::never: add_default_lights), exposure 1;
-///   - lights of a file (Scene::calibrated is false): an exposure from the lights (auto_exposure), and where nothing else lights it from
-///     all around, 0.15 of the studio if there is a directional light, 0.5 if there are point and spot lights alone (StudioUse::never:
-///     soft_ambient);
+///   - lights of a file (Scene::calibrated is false), where nothing else lights it from all around: the same studio besides, and an
+///     exposure by which lights that are brighter than white are as white (min(1, auto_exposure)); with StudioUse::never soft_ambient, and
+///     else alone, at auto_exposure;
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
 /// The background is dark grey (#2c3036), or light grey (codes 180, 186, 194) where surfaces are dark in the mean: their silhouette stands
 /// out from it. Points get a size at which they close their surface (closing_point_size). Nothing depends on pixels.

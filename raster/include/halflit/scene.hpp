@@ -33,8 +33,8 @@ struct Scene : Lighting {
 /// Adds a key light over the viewer's left shoulder, and sets ambient light from sky and ground: light for a scene that has none.
 HALFLIT_API void add_default_lights(Lighting& light, const Camera& camera);
 
-/// The built-in studio, made by code: a dim room with a bright horizon, soft boxes, and a floor that returns some light. 128 x 64 pixels,
-/// calibrated; a white Lambert surface in it reaches 0.1 (facing down) to 0.6 (facing up).
+/// The built-in studio, made by code: large bright soft boxes in a grey room, and a light floor. 128 x 64 pixels, calibrated; a white
+/// Lambert surface in it reaches 0.5 (facing down) to 0.7 (facing up), and with the key light of add_studio 1.6.
 [[nodiscard]] HALFLIT_API EnvironmentImage studio_image();
 
 /// The studio turned with the camera about the vertical, its main soft box over the viewer's left shoulder, with its image kept.
@@ -42,8 +42,9 @@ HALFLIT_API void add_default_lights(Lighting& light, const Camera& camera);
 [[nodiscard]] HALFLIT_API std::shared_ptr<const Environment> studio_environment(const Camera& camera, double turn_rad = 0.0,
                                                                                 float level = 1.0f);
 
-/// Sets the studio as the environment, and adds a key light from its main soft box that casts shadows. They are for exposure 1.
-HALFLIT_API void add_studio(Lighting& light, const Camera& camera, double turn_rad = 0.0);
+/// Sets the studio as the environment, and adds a key light from the left above the viewer that casts shadows. They are for the exposure
+/// 1 / level.
+HALFLIT_API void add_studio(Lighting& light, const Camera& camera, double turn_rad = 0.0, float level = 1.0f);
 
 /// Adds a ground that is invisible but for the shadows on it (Material::shadow_catcher): a horizontal square below the lowest point of the
 /// bounds, ten of their radii to each side. Views are framed as without it. bounds: scene_bounds(scene).

@@ -32,6 +32,12 @@ enum class EdgeChoice : std::uint8_t {
 /// Edges behind surfaces: left out, or dashed, thinner and paler.
 enum class HiddenEdges : std::uint8_t { none, dashed };
 
+/// Alpha of 8-bit pictures on a transparent background.
+enum class AlphaSpace : std::uint8_t {
+    linear,  ///< share of the light that a pixel covers
+    display  ///< for programs that blend codes, as browsers do: a blend over white has the codes that a blend of light has
+};
+
 /// Settings::sky_shadows: by a coarse grid.
 inline constexpr int kSkyShadowsAuto = 1;
 
@@ -40,6 +46,7 @@ struct Settings {
     Region region{};                      ///< part of the picture to draw
     int samples = 1;                      ///< per pixel: 1, 4, 8 or 16
     Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
+    AlphaSpace alpha = AlphaSpace::linear;  ///< of codes; floats have the share of light, and so has a background that is partly transparent
     bool background_environment = false;  ///< true: the scene's environment, if it kept its image
     float exposure = 1.0f;                ///< factor on all light, above 0
     /// from light to codes, for each sample, after exposure; pictures of floats and the background colour do without

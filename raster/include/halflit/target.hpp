@@ -20,7 +20,7 @@ enum class PixelFormat : std::uint8_t { rgba8, bgra8 };
 /// rows is not touched. A stride of 0 means that rows follow one another. Strides are at most 2^31 - 1, and never negative.
 struct Target {
     int width = 0, height = 0;       ///< pixels, of the whole picture: what the camera sees
-    std::uint8_t* pixels = nullptr;  ///< sRGB codes, four bytes a pixel in the order of `format`; alpha is linear
+    std::uint8_t* pixels = nullptr;  ///< sRGB codes, four bytes a pixel in the order of `format`; alpha by Settings::alpha
     float* linear = nullptr;         ///< linear light after exposure, four floats (RGBA) a pixel; aligned to 4 bytes, stride too
 
     PixelFormat format = PixelFormat::rgba8;  ///< of `pixels`
@@ -73,7 +73,7 @@ struct PictureSize {
 /// A picture with its own memory. Either array may be empty.
 struct Image {
     int width = 0, height = 0;        ///< pixels
-    std::vector<std::uint8_t> rgba8;  ///< width * height * 4 sRGB codes, alpha linear and not premultiplied
+    std::vector<std::uint8_t> rgba8;  ///< width * height * 4 sRGB codes, alpha by Settings::alpha and not premultiplied
     std::vector<float> rgba_linear;   ///< width * height * 4, linear light, alpha not premultiplied
 
     /// A picture with rgba8, of transparent black. Sides below 0 count as 0. Throws std::bad_alloc if memory lacks.

@@ -587,6 +587,7 @@ enum { HALFLIT_TONE_NONE = 0, HALFLIT_TONE_REINHARD = 1, HALFLIT_TONE_ACES = 2, 
 /// Edges that are drawn as lines. FEATURE: where a surface ends, where it bends by more than edge_angle_deg, and outlines. SILHOUETTE:
 /// where a surface ends, and outlines. ALL: of every triangle.
 enum { HALFLIT_EDGES_NONE = 0, HALFLIT_EDGES_FEATURE = 1, HALFLIT_EDGES_SILHOUETTE = 2, HALFLIT_EDGES_ALL = 3 };
+enum { HALFLIT_ALPHA_SPACE_LINEAR = 0, HALFLIT_ALPHA_SPACE_DISPLAY = 1 };
 enum { HALFLIT_HIDDEN_EDGES_NONE = 0, HALFLIT_HIDDEN_EDGES_DASHED = 1 };
 
 /// A part of a picture, in pixels; width 0: all of it.
@@ -675,7 +676,9 @@ typedef struct halflit_settings {
     /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1.
     /// There is none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below. 0: none. (0)
     float contact_shadow;
-    int32_t reserved[2];  ///< 0
+    /// HALFLIT_ALPHA_SPACE: of codes; floats have the share of light, and so has a background that is partly transparent (linear)
+    int32_t alpha;
+    int32_t reserved[1];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 /// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message
