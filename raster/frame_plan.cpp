@@ -248,6 +248,7 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
         return plan;
     }
     Settings of_sky = settings;
+    of_sky.shadow_softness_deg = 0.0f;
     of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.texel_count * sizeof(float));
     auto views = plan_shadow_views(plan.lights, scene, nullptr, of_sky, {std::min(sizes.most, kSkyMapSize)});
     if (!views) return tl::unexpected<Error>(views.error());

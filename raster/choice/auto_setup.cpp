@@ -184,6 +184,7 @@ Settings usual_settings() {
     settings.shading.anisotropy = 4;
     settings.sky_shadows = kSkyShadowsAuto;
     settings.contact_shadow = 0.85f;
+    settings.shadow_softness_deg = 3.0f;
     settings.background_linear = raster::suited_background({});
     return settings;
 }

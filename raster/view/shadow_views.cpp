@@ -4,6 +4,7 @@
 #include "raster/view/shadow_cascades.hpp"
 #include "raster/view/shadow_fit.hpp"
 #include "sh/arc.hpp"
+#include "sh/trig.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -174,7 +175,9 @@ constexpr double kTexelPx = 2.0 / 3.0;
 /// Plans the maps one after the other.
 class Planner {
 public:
-    Planner(const Bounds& bounds, const SeenVolume* seen, ShadowViews& out) : bounds_(bounds), seen_(seen), out_(out) {}
+    /// penumbra: ShadowMapPlan::penumbra of directional lights.
+    Planner(const Bounds& bounds, const SeenVolume* seen, double penumbra, ShadowViews& out)
+        : bounds_(bounds), seen_(seen), penumbra_(static_cast<float>(penumbra)), out_(out) {}
 
     void add(const LightPlan& light, const Choice& choice) {
         ShadowMapPlan map;
@@ -222,6 +225,7 @@ private:
             camera.fov_y_rad = static_cast<float>(2.0 * arc_tangent(half));
             camera.near_z = static_cast<float>(view.near_z);
         }
+        if (camera.orthographic) map.penumbra = penumbra_;
         set_texel_size(map, half, !camera.orthographic);
         set_rows(map, view.axes, view.eye, half);
         add_view(map, camera, sees_casters);
@@ -265,6 +269,7 @@ private:
 
     const Bounds& bounds_;
     const SeenVolume* seen_;
+    float penumbra_;
     ShadowViews& out_;
 };
 
@@ -308,7 +313,8 @@ Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const P
     if (side < largest)
         out.warning = "shadow maps of " + std::to_string(side) + " texels a side instead of " + std::to_string(largest) +
                       ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
-    Planner planner(bounds, seen, out);
+    const SinCos softness = sin_cos(static_cast<double>(settings.shadow_softness_deg) * (kPi / 180.0));
+    Planner planner(bounds, seen, 2.0 * softness.sin / softness.cos, out);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         out.map_of_light.push_back(-1);
         if (!choices[i].boxes.empty()) planner.add(lights[i], choices[i]);

@@ -1,7 +1,8 @@
 // Shadow-map look-ups: the share of a light that is hidden at each fragment, summed over a fixed neighbourhood of 4 x 4 texels.
 //
 // Each of the 16 texels is compared on its own (percentage-closer filtering). Rows and columns are weighted 1-f, 1, 1, f with f the
-// position between texel centres: a box of 3 x 3 texels that slides without steps. The sum is that of the hidden shares, so that a fragment
+// position between texel centres: a box of 3 x 3 texels that slides without steps. Lights may have penumbras: then every second, fourth or
+// eighth texel is read, as far as the distance of the blockers asks. The sum is that of the hidden shares, so that a fragment
 // that no texel hides gets exactly 0, and one that all texels hide exactly 1.
 #pragma once
 
@@ -123,6 +124,69 @@ HALFLIT_INLINE F faded(F v) {
     return F(1.0f) - (t * t) * (F(3.0f) - (t + t));
 }
 
+/// What a filter finds that reads every 2^k-th texel.
+struct WideShares {
+    HiddenShares hidden;
+    F behind;  ///< mean over all texels of the distance from the blocker, 0 where there is none
+};
+
+/// left, fade: as in hidden_share().
+HALFLIT_INLINE WideShares wide_share(const shading::ShadowMapPlan& map, const MapPoint& at, F receiver, int k, ShadowFade fade, F left,
+                                     bool soft) {
+    const float step = static_cast<float>(1 << k), last = static_cast<float>(map.size - 1);
+    const F none(0.0f), one(1.0f), third(1.0f / 3.0f), ends(last);
+    const F u = at.u * F(1.0f / step) - F(0.5f), v = at.v * F(1.0f / step) - F(0.5f), u0 = vfloor(u), v0 = vfloor(v);
+    const F fu = u - u0, fv = v - v0;
+    const F across[4] = {(one - fu) * third, third, third, fu * third}, along[4] = {(one - fv) * third, third, third, fv * third};
+    WideShares sum{{none, none}, none};
+    for (int j = 0; j < 4; ++j) {
+        const F row = clamp(mad(v0 + F(static_cast<float>(j) - 1.0f), F(step), F(0.5f * step)), none, ends);
+        const I first = round_to_int(row) * I(map.size) + at.base;
+        for (int i = 0; i < 4; ++i) {
+            const F column = clamp(mad(u0 + F(static_cast<float>(i) - 1.0f), F(step), F(0.5f * step)), none, ends);
+            const F behind = receiver - gather(map.distance, first + round_to_int(column));
+            const M hides = behind > none;
+            if (!any(hides)) continue;
+            const F weight = sel(hides, across[i] * along[j], none);
+            sum.hidden.hard = sum.hidden.hard + weight;
+            sum.behind = sum.behind + weight * sel(hides, behind, none);
+            if (soft) sum.hidden.soft = sum.hidden.soft + weight * faded((one - behind * F(fade.scale)) * left);
+        }
+    }
+    return sum;
+}
+
+/// Hidden shares by filters as wide as the penumbra of the blockers that the widest one finds, mixed between two of them; `sharp` are those
+/// by the narrowest.
+HALFLIT_INLINE HiddenShares penumbra_share(const shading::ShadowMapPlan& map, const MapPoint& at, F receiver, V3 normal, F texel,
+                                           HiddenShares sharp, ShadowFade fade, F left, bool soft) {
+    const F none(0.0f), one(1.0f);
+    const F cosine = vabs((F(map.rows[2][0]) * normal.x + F(map.rows[2][1]) * normal.y) + F(map.rows[2][2]) * normal.z);
+    const F sine = vsqrt(vmax(one - cosine * cosine, none));
+    const F shift = texel * (F(shading::kPenumbraBias) * vmin(vdiv(sine, vmax(cosine, F(0.1f))), F(shading::kSteepestPenumbra)));
+    const auto wide = [&](int k) __attribute__((always_inline)) {
+        return wide_share(map, at, receiver - shift * F(static_cast<float>((1 << k) - 1)), k, fade, left, soft);
+    };
+    const WideShares widest = wide(shading::kPenumbraLevels);
+    const M found = at.inside & (widest.hidden.hard > none);
+    if (!any(found)) return sharp;
+    // In widths of the narrowest filter.
+    const F distance = vdiv(widest.behind, sel(found, widest.hidden.hard, one));
+    const F width = sel(found, vdiv(distance * F(map.penumbra), texel * F(3.0f)), none);
+    HiddenShares sum{none, none};
+    F share = one;
+    for (int k = 0; k <= shading::kPenumbraLevels; ++k) {
+        const F wider = k == shading::kPenumbraLevels ? none : clamp(width * F(1.0f / static_cast<float>(1 << k)) - one, none, one);
+        const F weight = share - wider;
+        share = wider;
+        if (!any(weight > none)) continue;
+        const HiddenShares of_level = k == 0 ? sharp : k == shading::kPenumbraLevels ? widest.hidden : wide(k).hidden;
+        sum.hard = sum.hard + weight * of_level.hard;
+        sum.soft = sum.soft + weight * of_level.soft;
+    }
+    return {sel(found, vmin(sum.hard, one), sharp.hard), sel(found, vmin(soft ? sum.soft : sum.hard, one), sharp.soft)};
+}
+
 /// Hidden shares of a light at each lane. `normal`: unit normal of the surface.
 HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 position, V3 normal, V3 to_light, ShadowFade fade,
                                          bool soft) {
@@ -172,6 +236,7 @@ HALFLIT_INLINE HiddenShares hidden_share(const shading::ShadowMapPlan& map, V3 p
     hidden.hard = sel(at.inside, ((hard_row[1] + hard_row[2]) + mad(fv, hard_row[3] - hard_row[0], hard_row[0])) * ninth, none);
     hidden.soft = hidden.hard;
     if (soft) hidden.soft = sel(at.inside, ((soft_row[1] + soft_row[2]) + mad(fv, soft_row[3] - soft_row[0], soft_row[0])) * ninth, none);
+    if (map.penumbra > 0.0f) return penumbra_share(map, at, receiver, normal, texel, hidden, fade, left, soft);
     return hidden;
 }
 

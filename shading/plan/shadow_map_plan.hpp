@@ -29,6 +29,13 @@ constexpr float shadow_offset(float texel_at_1) {
 /// Shift of a receiver towards the light, against rounding errors: in texels, and as a share of the distance.
 inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
 
+/// A filter as wide as a penumbra reads every 2^k-th texel, with k from 0 to this, and is three of these wide: 3 to 24 texels. The widest
+/// one looks for blockers.
+inline constexpr int kPenumbraLevels = 3;
+/// Shift of a receiver towards the light for such a filter, in texels for each of those that it leaves out, times the tangent of the angle
+/// between the normal and the map's axis, which is held below kSteepestPenumbra.
+inline constexpr float kPenumbraBias = 2.0f, kSteepestPenumbra = 2.0f;
+
 /// Maps of a directional light: cascades, from the finest to the one that shows all.
 inline constexpr int kMostCascades = 4;
 
@@ -48,6 +55,7 @@ struct ShadowMapPlan {
     /// Number of coarser maps of the same light that follow in the list, of the same size and kind, orthographic; their texels follow this
     /// map's. A receiver is looked up in the first one that holds all that the filter reads.
     std::int32_t coarser = 0;
+    float penumbra = 0;     ///< width of a penumbra over the distance from the blocker, orthographic; 0: all edges are sharp
     std::int32_t next = 0;  ///< number of maps from here to that of the light's next point; 0: there is none
 };
 

@@ -92,6 +92,47 @@ double fade(double u) {
     return (1 - t) * (1 - t) * (1 + 2 * t);
 }
 
+/// As the kernels' wide_share.
+struct Wide {
+    double hard = 0, soft = 0, behind = 0;
+};
+template <class Faded>
+Wide wide_share(const ShadowMapPlan& map, const MapPoint& at, double receiver, int k, const Faded& faded) {
+    const int step = 1 << k;
+    Wide sum;
+    const int first_i = static_cast<int>(std::floor(at.u / step - 0.5)) - 1, first_j = static_cast<int>(std::floor(at.v / step - 0.5)) - 1;
+    for (int j = first_j; j < first_j + 4; ++j)
+        for (int i = first_i; i < first_i + 4; ++i) {
+            const auto texel = [&](int index) { return std::clamp(index * step + step / 2, 0, map.size - 1); };
+            const double behind = receiver - double{map.distance[texel(j) * map.size + texel(i)]};
+            if (!(behind > 0)) continue;
+            const double weight = box_weight(i + 0.5, at.u / step) * box_weight(j + 0.5, at.v / step);
+            sum.hard += weight, sum.behind += weight * behind, sum.soft += weight * faded(behind);
+        }
+    return sum;
+}
+
+/// As the kernels' penumbra_share.
+template <class Faded>
+void widen(const ShadowMapPlan& map, const MapPoint& at, double receiver, Vec3d normal, const Faded& faded, Hidden& hidden) {
+    const double cosine = std::fabs(dot(normal, Vec3d{map.rows[2][0], map.rows[2][1], map.rows[2][2]}));
+    const double tangent = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::max(cosine, 0.1);
+    const double shift = at.texel * double{kPenumbraBias} * std::min(tangent, double{kSteepestPenumbra});
+    const auto wide = [&](int k) { return wide_share(map, at, receiver - shift * ((1 << k) - 1), k, faded); };
+    const Wide widest = wide(kPenumbraLevels);
+    if (!(widest.hard > 0)) return;
+    const double width = widest.behind / widest.hard * double{map.penumbra} / (3 * at.texel);
+    const Hidden sharp = hidden;
+    hidden.hard = hidden.soft = 0;
+    double share = 1;
+    for (int k = 0; k <= kPenumbraLevels; ++k) {
+        const double wider = k == kPenumbraLevels ? 0 : std::clamp(width / (1 << k) - 1, 0.0, 1.0);
+        const Wide level = k == 0 ? Wide{sharp.hard, sharp.soft} : wide(k);
+        hidden.hard += (share - wider) * level.hard, hidden.soft += (share - wider) * level.soft;
+        share = wider;
+    }
+}
+
 }  // namespace
 
 Hidden hidden_share(const ShadowMapPlan& first, Vec3d position, Vec3d surface_normal, Vec3d to_light, const MaterialPlan& material,
@@ -107,6 +148,9 @@ Hidden hidden_share(const ShadowMapPlan& first, Vec3d position, Vec3d surface_no
     const bool fades = mode == ShadowMode::soft_split && material.shadow_fade_scale > 0;
     // A body's own thickness towards the light, as a share of d0, is not counted where it turns away from the light.
     const double own = std::clamp(-cosine * double{material.shadow_turn_scale}, 0.0, double{kOwnThickness});
+    const auto faded = [&](double behind) {
+        return fades ? 1 - fade((behind * double{material.shadow_fade_scale} - own) / (1 - own)) : 1.0;
+    };
     const double u = at.u, v = at.v;
     const float* texels = map.distance + static_cast<std::size_t>(at.face) * static_cast<std::size_t>(map.size * map.size);
     const int first_i = static_cast<int>(std::floor(u - 1.5)), first_j = static_cast<int>(std::floor(v - 1.5));
@@ -117,9 +161,10 @@ Hidden hidden_share(const ShadowMapPlan& first, Vec3d position, Vec3d surface_no
             hidden.margin = std::min(hidden.margin, std::fabs(behind));
             if (!(behind > 0)) continue;
             hidden.hard += weight;
-            hidden.soft += weight * (fades ? 1 - fade((behind * double{material.shadow_fade_scale} - own) / (1 - own)) : 1.0);
+            hidden.soft += weight * faded(behind);
         }
     }
+    if (map.penumbra > 0) widen(map, at, receiver, surface_normal, faded, hidden);
     return hidden;
 }
 

@@ -75,6 +75,8 @@ TEST_CASE(
     s.contact_shadow = Settings{}.contact_shadow;
     s.tone_curve = Settings{}.tone_curve;
     s.shading.anisotropy = Settings{}.shading.anisotropy;
+    CHECK(s.shadow_softness_deg == 3);
+    s.shadow_softness_deg = 0;
     CHECK(s.alpha == AlphaSpace::display);
     s.alpha = Settings{}.alpha;
     s.background_linear = Settings{}.background_linear;

@@ -73,6 +73,7 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "max_layers": ("max_layers", "int"),
     "contact_shadow": ("contact_shadow", "float"),
     "alpha": ("alpha", "ALPHA_SPACE"),
+    "shadow_softness_deg": ("shadow_softness_deg", "float"),
 }
 #: Keywords that have another place here.
 _ELSEWHERE = {

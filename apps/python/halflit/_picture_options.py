@@ -108,6 +108,9 @@ class PictureOptions(ViewOptions, total=False):
             0: none. (0.85)
         alpha: of codes; floats have the share of light, and so has a background that is partly transparent: "linear", "display"
             (display)
+        shadow_softness_deg: Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of
+            its shadows show it, by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide.
+            Degrees, 0 to 10; 0: all edges are sharp. (3.0)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)
@@ -159,6 +162,7 @@ class PictureOptions(ViewOptions, total=False):
     max_layers: int
     contact_shadow: float
     alpha: Literal["linear", "display"]
+    shadow_softness_deg: float
     # How it is computed.
     threads: int
     isa: Isa

@@ -62,6 +62,9 @@ struct Settings {
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; the largest shadow maps are halved until all fit
     /// points of a light that has a shadow_radius, each with maps of half that side: 4 to 64
     int soft_shadow_maps = 16;
+    /// Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of its shadows show it, by a wider
+    /// filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide. Degrees, 0 to 10; 0: all edges are sharp.
+    float shadow_softness_deg = 0.0f;
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
     float shadow_fade = 0.0f;
     /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024.

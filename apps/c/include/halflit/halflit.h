@@ -678,7 +678,11 @@ typedef struct halflit_settings {
     float contact_shadow;
     /// HALFLIT_ALPHA_SPACE: of codes; floats have the share of light, and so has a background that is partly transparent (linear)
     int32_t alpha;
-    int32_t reserved[1];  ///< 0
+    /// Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of its shadows show it,
+    /// by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide. Degrees, 0 to 10; 0: all
+    /// edges are sharp. (0)
+    float shadow_softness_deg;
+    int32_t reserved[2];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 /// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message
