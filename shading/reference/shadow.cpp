@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace halflit::shading::reference {
 namespace {
@@ -92,9 +93,11 @@ double fade(double u) {
     return (1 - t) * (1 - t) * (1 + 2 * t);
 }
 
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
 /// As the kernels' wide_share.
 struct Wide {
-    double hard = 0, soft = 0, behind = 0;
+    double hard = 0, soft = 0, behind = 0, margin = kEndless;
 };
 template <class Faded>
 Wide wide_share(const ShadowMapPlan& map, const MapPoint& at, double receiver, int k, const Faded& faded) {
@@ -105,6 +108,7 @@ Wide wide_share(const ShadowMapPlan& map, const MapPoint& at, double receiver, i
         for (int i = first_i; i < first_i + 4; ++i) {
             const auto texel = [&](int index) { return std::clamp(index * step + step / 2, 0, map.size - 1); };
             const double behind = receiver - double{map.distance[texel(j) * map.size + texel(i)]};
+            sum.margin = std::min(sum.margin, std::fabs(behind));
             if (!(behind > 0)) continue;
             const double weight = box_weight(i + 0.5, at.u / step) * box_weight(j + 0.5, at.v / step);
             sum.hard += weight, sum.behind += weight * behind, sum.soft += weight * faded(behind);
@@ -120,6 +124,7 @@ void widen(const ShadowMapPlan& map, const MapPoint& at, double receiver, Vec3d 
     const double shift = at.texel * double{kPenumbraBias} * std::min(tangent, double{kSteepestPenumbra});
     const auto wide = [&](int k) { return wide_share(map, at, receiver - shift * ((1 << k) - 1), k, faded); };
     const Wide widest = wide(kPenumbraLevels);
+    hidden.margin = std::min(hidden.margin, widest.margin);
     if (!(widest.hard > 0)) return;
     const double width = widest.behind / widest.hard * double{map.penumbra} / (3 * at.texel);
     const Hidden sharp = hidden;
@@ -128,6 +133,7 @@ void widen(const ShadowMapPlan& map, const MapPoint& at, double receiver, Vec3d 
     for (int k = 0; k <= kPenumbraLevels; ++k) {
         const double wider = k == kPenumbraLevels ? 0 : std::clamp(width / (1 << k) - 1, 0.0, 1.0);
         const Wide level = k == 0 ? Wide{sharp.hard, sharp.soft} : wide(k);
+        hidden.margin = std::min(hidden.margin, level.margin);
         hidden.hard += (share - wider) * level.hard, hidden.soft += (share - wider) * level.soft;
         share = wider;
     }

@@ -109,6 +109,7 @@ TEST_CASE("shadow kernel: random maps and any fragments give scalar's bits on ev
         const bool wild_map = round % 7 == 0;
         for (float& d : setup.texels)
             d = make.below(3) == 0 ? kNoBlocker : wild_map ? make.wild(5, 15) : make.below(4) == 0 ? 10.0f : make.ordinary(5, 15);
+        if (round % 3 == 0 && round % 4 != 0) setup.plan.shadow_maps[0].penumbra = make.ordinary(0, 1);
         FragmentBlock input{};
         fill_block(make, input, round % 2 == 0);
         FragmentBlock want = input;
@@ -277,6 +278,7 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference away from thei
         lobe.power = std::max(lobe.power, 1.0f);  // below 1 the lobe has an unbounded slope, and so has the error
         Setup setup(kind, lobe, mode);
         for (float& d : setup.texels) d = make.below(3) == 0 ? kNoBlocker : make.ordinary(7, 11);
+        if (round >= 600 && kind == ShadowMapPlan::Kind::orthographic) setup.plan.shadow_maps[0].penumbra = make.ordinary(0, 1);
         if (round >= 900 && kind == ShadowMapPlan::Kind::orthographic) setup.add_cascades();
         FragmentBlock block{};
         for (int lane = 0; lane < kBlockSize; ++lane) {
@@ -327,4 +329,39 @@ TEST_CASE("shadow kernel: shares agree with the float64 reference away from thei
     CHECK(worst <= 4e-6);  // measured: 1.5e-6, for white surfaces under light of colour 1
     CHECK(compared > 40000);
     CHECK(partly > 5000);
+}
+
+TEST_CASE("shadow kernel: a penumbra is as wide as the distance from the blocker asks", "[shading][shadow]") {
+    Setup setup(ShadowMapPlan::Kind::orthographic, {}, ShadowMode::hard);
+    setup.plan.shadow_maps[0].penumbra = 0.25f;
+    const double texel = double{setup.plan.shadow_maps[0].texel_size};
+    // The left half is hidden by an edge that lies `height` above the receiver.
+    const auto share_at = [&](double x) {
+        FragmentBlock block = uniform({static_cast<float>(x), 0, 0}, {0, 0, 1}), open = block;
+        setup.shade(Isa::scalar, block);
+        setup.plan.lights[0].shadow_map = -1;
+        setup.shade(Isa::scalar, open);
+        setup.plan.lights[0].shadow_map = 0;
+        return 1.0 - double{block.red[0]} / double{open.red[0]};
+    };
+    for (const double height : {0.25, 0.75, 1.5, 3.0}) {
+        for (int i = 0; i < kSize * kSize; ++i)
+            setup.texels[static_cast<std::size_t>(i)] = i % kSize < kSize / 2 ? static_cast<float>(10 - height) : kNoBlocker;
+        double first = 0, last = 0, before = 1;
+        for (double x = -0.8; x < 0.8; x += 0.005) {
+            const double share = share_at(x);
+            CHECK(share <= before + 1e-6);
+            if (share > 0.9) first = x;
+            if (share > 0.1) last = x;
+            before = share;
+        }
+        const double wanted = 0.8 * std::max(3 * texel, height * 0.25);
+        CAPTURE(height);
+        CHECK(last - first == Approx(wanted).epsilon(0.35));
+        CHECK(0.5 * (first + last) == Approx(0).margin(0.5 * wanted));
+    }
+    setup.fill(kNoBlocker);
+    CHECK(share_at(0) == 0);
+    setup.fill(5.0f);
+    CHECK(share_at(0) == Approx(1));
 }
