@@ -48,6 +48,7 @@ static_assert(HALFLIT_SPECULAR_GGX == static_cast<int>(SpecularModel::ggx));
 static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_split));
 static_assert(HALFLIT_EDGES_ALL == static_cast<int>(EdgeChoice::all));
 static_assert(HALFLIT_HIDDEN_EDGES_DASHED == static_cast<int>(HiddenEdges::dashed));
+static_assert(HALFLIT_EDL_ON == static_cast<int>(EyeDomeLighting::on));
 static_assert(HALFLIT_TONE_REINHARD == static_cast<int>(ToneCurve::reinhard) &&
               HALFLIT_TONE_NEUTRAL == static_cast<int>(ToneCurve::neutral));
 static_assert(HALFLIT_UP_BY_FORMAT == 0 && HALFLIT_UP_X == static_cast<int>(UpAxis::x) + 1 &&

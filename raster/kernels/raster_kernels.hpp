@@ -109,7 +109,13 @@ struct VertexRecordArgs {
 /// One triangle in a tile's list. Vertices in the order of positive area with y down: clockwise as seen on the screen.
 struct TriangleRecord {
     std::uint32_t vertex[3];      ///< index into the view's screen vertices; kClipVertex + index into the chunk's clip vertices
-    std::uint32_t draw_and_back;  ///< draw * 2 + (1 for a back face)
+    std::uint32_t draw_and_bits;  ///< draw << kBits, with the bits below
+    [[nodiscard]] HALFLIT_INLINE std::uint32_t draw() const { return draw_and_bits >> kBits; }
+    [[nodiscard]] HALFLIT_INLINE bool is_back() const { return (draw_and_bits & kBackFace) != 0; }
+    /// It covers the circle in its box alone, as the other half of the point's square does.
+    [[nodiscard]] HALFLIT_INLINE bool is_round() const { return (draw_and_bits & kRoundPoint) != 0; }
+    static constexpr std::uint32_t kBackFace = 1, kRoundPoint = 2;
+    static constexpr int kBits = 2;
 };
 inline constexpr std::uint32_t kClipVertex = 0x80000000u;
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;

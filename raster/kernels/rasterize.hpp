@@ -68,9 +68,9 @@ HALFLIT_INLINE void small_edges(const Edge* edges, const ScreenVertex* const* fr
 }
 
 /// Draws all samples of one triangle in the part of a tile. make_sink(s) gives the sink of sample s. Returns the box walked.
-template <class MakeSink>
-HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part, const SamplePattern& pattern,
-                                      const TriangleSource& source, const TriangleRecord& record, const MakeSink& make_sink) {
+template <bool kRound, class MakeSink>
+HALFLIT_INLINE CoverBox draw_samples(const TileRect& tile, const TileRect& part, const SamplePattern& pattern, const TriangleSource& source,
+                                     const TriangleRecord& record, const MakeSink& make_sink) {
     const ScreenVertex& v0 = vertex_of(source, record.vertex[0]);
     const ScreenVertex& v1 = vertex_of(source, record.vertex[1]);
     const ScreenVertex& v2 = vertex_of(source, record.vertex[2]);
@@ -80,6 +80,12 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part
     const ScreenVertex* const from[3] = {&v0, &v1, &v2};
     const bool small = most_x - least_x < kSmallTriangle && most_y - least_y < kSmallTriangle;
     const DepthSlope slope = make_depth_slope(v0, v1, v2);
+    const auto sink_of = [&](int s) __attribute__((always_inline)) {
+        if constexpr (kRound)
+            return in_circle(make_sink(s), tile, least_x, most_x, least_y, pattern.x[s], pattern.y[s]);
+        else
+            return make_sink(s);
+    };
     CoverBox all{kMaxTileSize, kMaxTileSize, -1, -1};
     for (int s = 0; s < pattern.count; ++s) {
         const int sx = pattern.x[s], sy = pattern.y[s];
@@ -93,17 +99,24 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part
             BoxEdge at_corner[3];
             small_edges(edges, from, bx0 * 256 + sx, by0 * 256 + sy, at_corner);
             walk<3>(at_corner, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1 - bx0 + 1, by1 - by0 + 1,
-                    (by0 - tile.y) * kTileStride + (bx0 - tile.x), make_sink(s));
+                    (by0 - tile.y) * kTileStride + (bx0 - tile.x), sink_of(s));
             grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
             continue;
         }
         std::int64_t c[3];
         for (int k = 0; k < 3; ++k)
             c[k] = edges[k].c + static_cast<std::int64_t>(edges[k].a) * sx + static_cast<std::int64_t>(edges[k].b) * sy;
-        draw_sample(tile, edges, c, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1, by1, make_sink(s));
+        draw_sample(tile, edges, c, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1, by1, sink_of(s));
         grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
     }
     return all;
+}
+
+template <class MakeSink>
+HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part, const SamplePattern& pattern,
+                                      const TriangleSource& source, const TriangleRecord& record, const MakeSink& make_sink) {
+    return record.is_round() ? draw_samples<true>(tile, part, pattern, source, record, make_sink)
+                             : draw_samples<false>(tile, part, pattern, source, record, make_sink);
 }
 
 /// The sink of one triangle.
@@ -121,7 +134,8 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
                                const std::uint32_t* ids, int sample_x, int sample_y, float* depth, std::uint32_t* triangle) {
     const SampleLanes sample = set_up_sample(tile, corners, setup, sample_x, sample_y);
     const std::uint32_t some = mask_bits(less(I(0), sample.width) & less(I(0), sample.height)) & lanes;
-    const std::uint32_t tiny = mask_bits(less(sample.width, I(kTinyBox + 1)) & less(sample.height, I(kTinyBox + 1))) & some;
+    const std::uint32_t tiny =
+        mask_bits(less(sample.width, I(kTinyBox + 1)) & less(sample.height, I(kTinyBox + 1))) & some & ~corners.round;
     TinyHits hits;
     hits.mask = 0;
     if (tiny != 0) test_tiny(tile, setup, sample, tiny, hits);
@@ -139,13 +153,19 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
     if (larger != 0) {
         StoredLanes stored;
         store_lanes(setup, sample, stored);
+        alignas(64) std::int32_t least_x[kWidth], most_x[kWidth], least_y[kWidth];
+        if ((larger & corners.round) != 0) store(least_x, corners.least_x), store(most_x, corners.most_x), store(least_y, corners.least_y);
         // In the order of the list: of equal depths the first stays.
         for (; larger != 0; larger &= larger - 1) {
             const int l = __builtin_ctz(larger);
             const std::uint64_t before = hits.mask & ((std::uint64_t{1} << (4 * l)) - 1u);
             draw_hits(before);
             hits.mask ^= before;
-            walk_lane(tile, stored, l, visible_sink<kIds>(depth, triangle, ids[l]));
+            const auto sink = visible_sink<kIds>(depth, triangle, ids[l]);
+            if ((corners.round >> l & 1) != 0)
+                walk_lane(tile, stored, l, in_circle(sink, tile, least_x[l], most_x[l], least_y[l], sample_x, sample_y));
+            else
+                walk_lane(tile, stored, l, sink);
         }
     }
     draw_hits(hits.mask);

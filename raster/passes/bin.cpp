@@ -229,7 +229,7 @@ private:
                     const TileGrid::Tiles& tiles, const Source& source) {
         if (is_hidden_by_last(a, b, c, source.draw)) return;
         const auto record = static_cast<std::uint32_t>(chunk_.records.size());
-        chunk_.records.push_back({{v[0], v[1], v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
+        chunk_.records.push_back({{v[0], v[1], v[2]}, draw_bits(a, b, c, back, source)});
         if (in_.numbered) chunk_.numbers.push_back(source.draw.triangle_base + source.triangle);
         for (int k = 0; k < 3; ++k) {
             // Stored only once: other tasks read the same lines.
@@ -251,6 +251,15 @@ private:
         }
     }
 
+    /// Points below this size, in 1/256 pixel, are squares: their corners are less than a sample apart from a circle.
+    static constexpr std::int32_t kLeastRound = 3 * 256;
+
+    static std::uint32_t draw_bits(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, bool back, const Source& source) {
+        const bool round = source.draw.topology == Topology::points && std::max({a.x, b.x, c.x}) - std::min({a.x, b.x, c.x}) >= kLeastRound;
+        return source.draw_index << TriangleRecord::kBits | (back ? TriangleRecord::kBackFace : 0u) |
+               (round ? TriangleRecord::kRoundPoint : 0u);
+    }
+
     /// True if the triangle before it is equal, in corners and material, and hides it: of equal depths the first stays. Crafted files
     /// hold thousands of copies.
     [[nodiscard]] bool is_hidden_by_last(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Draw& draw) const {
@@ -262,7 +271,7 @@ private:
             return own.x == other.x && own.y == other.y && own.z == other.z && own.inv_w == other.inv_w;
         };
         if (!is(0, a) || !is(1, b) || !is(2, c)) return false;
-        const Draw& of_last = in_.draws[last.draw_and_back >> 1];
+        const Draw& of_last = in_.draws[last.draw()];
         return of_last.material == draw.material && draw.alpha_mode == AlphaMode::opaque && of_last.alpha_mode == AlphaMode::opaque;
     }
 

@@ -72,6 +72,9 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "edge_width": ("edge_width", "float"),
     "max_layers": ("max_layers", "int"),
     "contact_shadow": ("contact_shadow", "float"),
+    "edl": ("edl", "EDL"),
+    "edl_strength": ("edl_strength", "float"),
+    "edge_contrast": ("edge_contrast", "bool"),
 }
 #: Keywords that have another place here.
 _ELSEWHERE = {

@@ -72,7 +72,9 @@ class PictureOptions(ViewOptions, total=False):
         samples: per pixel: 1, 4, 8 or 16 (4)
         tone_curve: from light to codes, for each sample, after exposure; pictures of floats and the background colour do without:
             "none", "reinhard", "aces", "neutral" (neutral)
-        point_size: side of points, pixels, 1/16 to 256; rounded to 1/256 (2)
+        point_size: Size of points, pixels, 1/16 to 256; rounded to 1/256. From 3 on they are round, below that square. 0: the sizes
+            that close the surface that they lie on, by their distances in the picture: 2 at least, a fortieth of the picture's
+            shorter side at most. (0.0)
         line_width: width of lines, likewise (1.5)
         accuracy: arithmetic; exact if there is an error budget: "reference", "exact" (exact)
         texture_detail: upper limit of the texture filters: "full", "bilinear", "nearest" (full)
@@ -106,6 +108,10 @@ class PictureOptions(ViewOptions, total=False):
         contact_shadow: Opacity of the soft shadow below a model that stands, over the background, where all light from above is
             hidden: 0 to 1. There is none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below.
             0: none. (0.85)
+        edl: Shading by the depths of the picture: a surface is darker where its neighbours are nearer to the viewer. Transparent
+            surfaces count as not there.: "off", "auto", "on" (automatic)
+        edl_strength: of that shading, 0 to 16 (1)
+        edge_contrast: black lines on surfaces of dark materials are light grey instead (True)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)
@@ -156,6 +162,9 @@ class PictureOptions(ViewOptions, total=False):
     edge_width: float
     max_layers: int
     contact_shadow: float
+    edl: Literal["off", "auto", "on"]
+    edl_strength: float
+    edge_contrast: bool
     # How it is computed.
     threads: int
     isa: Isa
