@@ -7,18 +7,15 @@
 namespace halflit::raster {
 namespace {
 
-/// Where depths are read around a pixel: eight directions at one distance. x and y in pixels; run: their distance.
-struct Neighbour {
-    int x, y;
-    float run;
-};
-
 /// A steeper rise, by 76 degrees, counts as this. It is a gap between two surfaces then.
 constexpr float kMostRise = 4.0f;
-/// Where so many neighbours are beyond gaps, a pixel shows through a hole between points, and is as bright as the surface around it.
-constexpr float kHole = 6.0f;
+/// Where so many neighbours are nearer by a gap, a pixel shows through a hole between points. It then has the shade of a usual slope, as
+/// the surface around the hole has.
+constexpr float kHole = 6.0f, kRiseOfHole = 2.0f;
 
-std::vector<Neighbour> neighbours_of(int radius) {
+constexpr int kBlock = 64;  ///< pixels of a row that are shaded together
+
+std::vector<EyeDome::Neighbour> neighbours_of(int radius) {
     const int aside = std::max(1, static_cast<int>(0.70710678 * radius + 0.5));
     const auto straight = static_cast<float>(radius), slanted = static_cast<float>(1.41421356 * aside);
     return {{radius, 0, straight},   {-radius, 0, straight},   {0, radius, straight},    {0, -radius, straight},
@@ -64,43 +61,62 @@ void EyeDome::shade(const FramePlan& plan, const Output& output, Executor& execu
     const EyeDomePlan& dome = plan.eye_dome;
     const std::vector<Neighbour> neighbours = neighbours_of(dome.radius_px);
     const Region& part = plan.written;
-    const auto count = static_cast<std::size_t>(part.width);
     executor.run(part.height, [&](int row) {
-        const int y = part.y + row;
-        std::vector<float> sum(count, 0.0f), per_depth(count), rise(count), gaps(count);
-        for (int plane = 0; plane < planes_; ++plane) {
-            const float* const own = at(plane, part.x, y);
-            for (std::size_t x = 0; x < count; ++x)
-                per_depth[x] = own[x] > 0.0f ? dome.scale / (dome.orthographic ? 1.0f : own[x] + dome.depth_offset) : 0.0f;
-            std::fill(rise.begin(), rise.end(), 0.0f);
-            std::fill(gaps.begin(), gaps.end(), 0.0f);
-            for (const Neighbour& n : neighbours) {
-                const float* const other = at(plane, part.x + n.x, y + n.y);
-                const float per_run = 1.0f / n.run;
-                for (std::size_t x = 0; x < count; ++x) {
-                    const float z = other[x] < 0.0f ? -other[x] : other[x];
-                    const float step = (z - own[x]) * (per_depth[x] * per_run), up = step > 0.0f ? step : 0.0f;
-                    rise[x] += up < kMostRise ? up : kMostRise;
-                    gaps[x] += up < kMostRise ? 0.0f : 1.0f;
-                }
-            }
-            for (std::size_t x = 0; x < count; ++x) sum[x] += 1.0f / (1.0f + (gaps[x] < kHole ? dome.strength : 0.0f) * rise[x]);
-        }
-        const float mean = 1.0f / static_cast<float>(planes_);
-        for (std::size_t x = 0; x < count; ++x) {
-            const float share = sum[x] * mean;
-            if (!(share < 1.0f)) continue;
-            const int at_x = part.x + static_cast<int>(x);
-            if (output.codes) {
-                std::uint8_t* const code = output.codes.at(at_x, y);
-                for (int c = 0; c < 3; ++c) code[c] = static_cast<std::uint8_t>(static_cast<float>(code[c]) * share + 0.5f);
-            }
-            if (output.linear) {
-                float* const light = output.linear.at(at_x, y);
-                for (int c = 0; c < 3; ++c) light[c] *= share * share;
-            }
-        }
+        for (int x = 0; x < part.width; x += kBlock)
+            shade_block(dome, neighbours, output, part.x + x, part.y + row, std::min(kBlock, part.width - x));
     });
+}
+
+void EyeDome::shade_block(const EyeDomePlan& dome, std::span<const Neighbour> neighbours, const Output& output, int x_px, int y_px,
+                          int count) const {
+    float share[kBlock] = {};
+    bool any = false;
+    for (int plane = 0; plane < planes_; ++plane) {
+        // Copies, so that the compiler knows that they do not overlap.
+        float own[kBlock] = {}, per_depth[kBlock] = {}, rise[kBlock] = {}, gaps[kBlock] = {}, other[kBlock] = {}, step_of[kBlock];
+        const auto bytes = sizeof(float) * static_cast<std::size_t>(count);
+        std::memcpy(own, at(plane, x_px, y_px), bytes);
+        bool shaded = false;
+        for (const float z : own) shaded |= z > 0.0f;
+        if (!shaded) {
+            for (float& one : share) one += 1.0f;
+            continue;
+        }
+        any = true;
+        const float offset = dome.depth_offset, scale = dome.scale, strength = dome.strength;
+        for (int i = 0; i < kBlock; ++i) {
+            const float depth = dome.orthographic ? 1.0f : own[i] + offset;
+            per_depth[i] = own[i] > 0.0f ? scale / depth : 0.0f;
+        }
+        for (const Neighbour& n : neighbours) {
+            std::memcpy(other, at(plane, x_px + n.x, y_px + n.y), bytes);
+            const float per_run = 1.0f / n.run;
+            for (int i = 0; i < kBlock; ++i) {
+                const float step = (__builtin_fabsf(other[i]) - own[i]) * (per_depth[i] * per_run);
+                step_of[i] = step < kMostRise ? step : kMostRise;
+            }
+            for (int i = 0; i < kBlock; ++i) rise[i] += step_of[i] > 0.0f ? step_of[i] : 0.0f;
+            for (int i = 0; i < kBlock; ++i) gaps[i] += step_of[i] < kMostRise ? 0.0f : 1.0f;
+        }
+        for (int i = 0; i < kBlock; ++i) {
+            const float counted = gaps[i] < kHole ? rise[i] : kRiseOfHole;  // 0 where nothing is shaded
+            share[i] += 1.0f / (1.0f + strength * counted);
+        }
+    }
+    if (!any) return;
+    const float weight = 1.0f / static_cast<float>(planes_);
+    for (int i = 0; i < count; ++i) {
+        const float mean = share[i] * weight;
+        if (!(mean < 1.0f)) continue;
+        if (output.codes) {
+            std::uint8_t* const code = output.codes.at(x_px + i, y_px);
+            for (int c = 0; c < 3; ++c) code[c] = static_cast<std::uint8_t>(static_cast<float>(code[c]) * mean + 0.5f);
+        }
+        if (output.linear) {
+            float* const light = output.linear.at(x_px + i, y_px);
+            for (int c = 0; c < 3; ++c) light[c] *= mean * mean;
+        }
+    }
 }
 
 }  // namespace halflit::raster

@@ -12,12 +12,19 @@
 #include "raster/passes/output.hpp"
 #include "raster/passes/view_geometry.hpp"
 
+#include <span>
+
 namespace halflit::raster {
 
 /// The depths of a picture, and around it as far as they are read. Up to four samples of a pixel have one each.
 class EyeDome {
 public:
     static constexpr int kMostPlanes = 4;
+    /// Where a depth is read beside a pixel: x and y in pixels; run: the way there.
+    struct Neighbour {
+        int x, y;
+        float run;
+    };
 
     /// Makes room for the depths of a plan's picture.
     void begin(const FramePlan& plan, Executor& executor);
@@ -27,6 +34,8 @@ public:
     void shade(const FramePlan& plan, const Output& output, Executor& executor) const;
 
 private:
+    void shade_block(const EyeDomePlan& dome, std::span<const Neighbour> neighbours, const Output& output, int x_px, int y_px,
+                     int count) const;
     [[nodiscard]] float* at(int plane, int x_px, int y_px) {
         return depth_.data() + (static_cast<std::ptrdiff_t>(plane) * rows_ + (y_px - y0_)) * stride_ + (x_px - x0_);
     }

@@ -73,8 +73,8 @@ class PictureOptions(ViewOptions, total=False):
         tone_curve: from light to codes, for each sample, after exposure; pictures of floats and the background colour do without:
             "none", "reinhard", "aces", "neutral" (neutral)
         point_size: Size of points, pixels, 1/16 to 256; rounded to 1/256. From 3 on they are round, below that square. 0: the sizes
-            that close the surface that they lie on, by their distances in the picture: 2 at least, a fortieth of the picture's
-            shorter side at most. (0.0)
+            that close the surface that they lie on, by their distances in the picture: 2 at least, a 25th of the picture's shorter
+            side at most. (0.0)
         line_width: width of lines, likewise (1.5)
         accuracy: arithmetic; exact if there is an error budget: "reference", "exact" (exact)
         texture_detail: upper limit of the texture filters: "full", "bilinear", "nearest" (full)

@@ -41,7 +41,7 @@ struct AutoOptions {
 struct AutoSetup {
     Camera camera;        ///< the view to draw
     Lighting light;       ///< the scene's own, with what it lacks
-    Settings settings;    ///< usual_settings(), the exposure, the size of points, and a background that suits the surfaces' colours
+    Settings settings;    ///< usual_settings(), the exposure, and a background that suits the surfaces' colours
     bool framed = false;  ///< the camera is a view of the whole scene
     ViewSettings view{};  ///< of a view of the whole scene: AutoOptions::view, or another side's
 };

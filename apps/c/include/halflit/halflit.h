@@ -622,8 +622,8 @@ typedef struct halflit_settings {
     /// (none)
     int32_t tone_curve;
     /// Size of points, pixels, 1/16 to 256; rounded to 1/256. From 3 on they are round, below that square. 0: the sizes that close
-    /// the surface that they lie on, by their distances in the picture: 2 at least, a fortieth of the picture's shorter side at
-    /// most. (2)
+    /// the surface that they lie on, by their distances in the picture: 2 at least, a 25th of the picture's shorter side at most.
+    /// (2)
     float point_size;
     /// width of lines, likewise (1.5)
     float line_width;
