@@ -80,12 +80,6 @@ HALFLIT_INLINE CoverBox draw_samples(const TileRect& tile, const TileRect& part,
     const ScreenVertex* const from[3] = {&v0, &v1, &v2};
     const bool small = most_x - least_x < kSmallTriangle && most_y - least_y < kSmallTriangle;
     const DepthSlope slope = make_depth_slope(v0, v1, v2);
-    const auto sink_of = [&](int s) __attribute__((always_inline)) {
-        if constexpr (kRound)
-            return in_circle(make_sink(s), tile, least_x, most_x, least_y, pattern.x[s], pattern.y[s]);
-        else
-            return make_sink(s);
-    };
     CoverBox all{kMaxTileSize, kMaxTileSize, -1, -1};
     for (int s = 0; s < pattern.count; ++s) {
         const int sx = pattern.x[s], sy = pattern.y[s];
@@ -95,18 +89,24 @@ HALFLIT_INLINE CoverBox draw_samples(const TileRect& tile, const TileRect& part,
         bx1 = bx1 >= part.x + part.width ? part.x + part.width - 1 : bx1;
         by1 = by1 >= part.y + part.height ? part.y + part.height - 1 : by1;
         if (bx0 > bx1 || by0 > by1) continue;
+        if constexpr (kRound) {
+            walk<0>(nullptr, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1 - bx0 + 1, by1 - by0 + 1,
+                    (by0 - tile.y) * kTileStride + (bx0 - tile.x), in_circle(make_sink(s), tile, least_x, most_x, least_y, sx, sy));
+            grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
+            continue;
+        }
         if (small) {
             BoxEdge at_corner[3];
             small_edges(edges, from, bx0 * 256 + sx, by0 * 256 + sy, at_corner);
             walk<3>(at_corner, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1 - bx0 + 1, by1 - by0 + 1,
-                    (by0 - tile.y) * kTileStride + (bx0 - tile.x), sink_of(s));
+                    (by0 - tile.y) * kTileStride + (bx0 - tile.x), make_sink(s));
             grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
             continue;
         }
         std::int64_t c[3];
         for (int k = 0; k < 3; ++k)
             c[k] = edges[k].c + static_cast<std::int64_t>(edges[k].a) * sx + static_cast<std::int64_t>(edges[k].b) * sy;
-        draw_sample(tile, edges, c, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1, by1, sink_of(s));
+        draw_sample(tile, edges, c, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1, by1, make_sink(s));
         grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
     }
     return all;
@@ -163,7 +163,7 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
             hits.mask ^= before;
             const auto sink = visible_sink<kIds>(depth, triangle, ids[l]);
             if ((corners.round >> l & 1) != 0)
-                walk_lane(tile, stored, l, in_circle(sink, tile, least_x[l], most_x[l], least_y[l], sample_x, sample_y));
+                walk_box_of_lane(tile, stored, l, in_circle(sink, tile, least_x[l], most_x[l], least_y[l], sample_x, sample_y));
             else
                 walk_lane(tile, stored, l, sink);
         }

@@ -192,6 +192,13 @@ HALFLIT_INLINE void store_lanes(const SetupLanes& s, const SampleLanes& p, Store
     store(out.hi, s.hi);
 }
 
+/// Walks the box of a lane, whatever the triangle covers of it.
+template <class Sink>
+HALFLIT_INLINE void walk_box_of_lane(const TileRect& tile, const StoredLanes& s, int l, const Sink& sink) {
+    const DepthPlane plane{s.za[l], s.zx[l], s.zy[l], s.lo[l], s.hi[l], s.anchor_x[l], s.anchor_y[l]};
+    walk<0>(nullptr, plane, s.x0[l], s.y0[l], s.width[l], s.height[l], (s.y0[l] - tile.y) * kTileStride + (s.x0[l] - tile.x), sink);
+}
+
 /// Walks the box of a lane.
 template <class Sink>
 HALFLIT_INLINE void walk_lane(const TileRect& tile, const StoredLanes& s, int l, const Sink& sink) {
