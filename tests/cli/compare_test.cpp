@@ -264,7 +264,7 @@ TEST_CASE("compare: pictures have the lines of edges, unless flags say otherwise
         std::vector<std::string> words{"compare", pair.a, pair.b, "--size", "96x72", "--view", "iso", "-o", folder};
         if (*edges != 0) words.insert(words.end(), {"--edges", edges});
         CHECK(run(words).code == 0);
-        return read_picture(contents(folder + "/compare.png")).rgba;
+        return read_picture(contents(folder + "/compare.png")).rgba8;
     };
     const auto usual = sheet("");
     CHECK(usual == sheet("feature"));
