@@ -123,6 +123,7 @@ TEST_CASE("eye dome: clouds without normals alone are shaded, unless all surface
     Scene box;
     box.meshes.push_back(make_box({1, 1, 1}));
     box.instances.push_back({0, {}});
+    box.ambient = {{0.6f, 0.6f, 0.6f}, {0.4f, 0.4f, 0.4f}};
     const Camera camera = test::camera_at({3, 2, 4}, {0, 0, 0});
     for (const Scene* scene : {&lit, &box}) {
         const Picture plain = drawn(*scene, camera, domed(EyeDomeLighting::off));
@@ -206,7 +207,7 @@ TEST_CASE("point sizes: points at random leave hardly a pixel of their surface o
     CHECK(open < 0.01 * inside);
     const raster::PointSizes sizes = raster::closing_point_sizes(scene, raster::clip_from_world(camera, 1), kSide, kSide);
     const int dense = sizes.at(256 * 150, 256 * 200), sparse = sizes.at(256 * 250, 256 * 200);
-    CHECK(double{1.0} * sparse / dense == Approx(3).epsilon(0.25));
+    CHECK(static_cast<double>(sparse) / dense == Approx(3).epsilon(0.25));
 }
 
 TEST_CASE("point sizes: by the distance of points in the picture, within 2 pixels and a 25th of its side", "[raster][points]") {
