@@ -191,10 +191,51 @@ Region whole_cells(const Region& region, int width, int height) {
 
 View picture_view(const Camera& camera, int width, int height, const Region& region, int tile_size, const Settings& settings) {
     View view = make_view(camera, width, height, region, tile_size, settings.samples);
-    view.point_size = static_cast<int>(__builtin_lrintf(settings.point_size * 256.0f));
+    view.point_size =
+        static_cast<int>(__builtin_lrintf((settings.point_size > 0.0f ? settings.point_size : Settings{}.point_size) * 256.0f));
     view.line_width = static_cast<int>(__builtin_lrintf(settings.line_width * 256.0f));
     lift_lines(view, camera, static_cast<double>(settings.line_width));
     return view;
+}
+
+/// Sizes by which points close their surface, where the settings leave them to the renderer.
+void choose_point_sizes(const PreparedData& scene, const Settings& settings, int width, int height, View& view) {
+    if (settings.point_size > 0.0f) return;
+    view.point_sizes = closing_point_sizes(scene.scene(), view.clip_from_world, width, height);
+    for (const float size : view.point_sizes.size) view.point_size = std::max(view.point_size, static_cast<int>(size));
+}
+
+bool has_cloud_without_normals(const PreparedData& scene) {
+    const std::span<const std::size_t> instances = scene.instances_without_normals();
+    return std::any_of(instances.begin(), instances.end(),
+                       [&](std::size_t i) { return scene.source_mesh(scene.scene().instances[i].mesh).topology == Topology::points; });
+}
+
+EyeDomePlan plan_eye_dome(const PreparedData& scene, const Camera& camera, const Settings& settings, const View& view, int width,
+                          int height) {
+    EyeDomePlan plan;
+    if (settings.edl == EyeDomeLighting::off || settings.edl_strength == 0.0f) return plan;
+    if (settings.edl == EyeDomeLighting::automatic && !has_cloud_without_normals(scene)) return plan;
+    // As far as a point is wide: nearer, its own level circle is read, and the steps from one to the next show instead of the surface.
+    constexpr int kMostRadius = 32, kRadiiOfHeight = 256, kUnits = 256;  // units of a pixel
+    const int of_points = view.point_sizes.empty() ? view.point_size : view.point_sizes.usual;
+    const int radius = has_cloud_without_normals(scene) ? (of_points + kUnits / 2) / kUnits : height / kRadiiOfHeight;
+    plan.radius_px = std::clamp(radius, 1, kMostRadius);
+    plan.strength = settings.edl_strength / 8.0f;  // of the mean in eight directions
+    plan.all = settings.edl == EyeDomeLighting::on;
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    const DepthMap depth = depth_map(camera, aspect);
+    const double pixel = 2.0 * half_extent(camera, aspect) / height;  // at distance 1, or everywhere
+    plan.orthographic = camera.orthographic;
+    plan.scale = static_cast<float>(camera.orthographic ? 1.0 / (depth.z_scale * pixel) : 1.0 / pixel);
+    plan.depth_offset = static_cast<float>(depth.z_scale);
+    return plan;
+}
+
+/// The region with a border within the picture.
+Region with_border(const Region& region, int border, int width, int height) {
+    const int x = std::max(region.x - border, 0), y = std::max(region.y - border, 0);
+    return {x, y, std::min(region.x + region.width + border, width) - x, std::min(region.y + region.height + border, height) - y};
 }
 
 /// The volume that the picture sees, if shadows are looked up there alone. Light at corners or centres of triangles reads them anywhere,
@@ -285,6 +326,8 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     const Camera camera = plan.camera = drawn_camera(given, prepared);
     plan.options = options;
     plan.picture = picture_view(camera, width, height, settings.region, tile_size, settings);
+    choose_point_sizes(prepared, settings, width, height, plan.picture);
+    plan.eye_dome = plan_eye_dome(prepared, camera, settings, plan.picture, width, height);
     const std::optional<SeenVolume> seen = looked_up_where_seen(prepared, camera, options, settings, plan.picture);
     const ShadowSizes sizes = shadow_sizes(settings, width, height);
     auto shadows = plan_light_shadows(lights, prepared, seen ? &*seen : nullptr, beside_sky(light, settings), sizes);
@@ -333,10 +376,13 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
         plan.transmits = true;
         plan.looks_through |= material.transmission.looked_through;
     }
-    if (plan.looks_through)
-        plan.picture = picture_view(camera, width, height, {}, tile_size, settings);
-    else if (plan.cells)
-        plan.picture = picture_view(camera, width, height, whole_cells(plan.written, width, height), tile_size, settings);
+    const bool has_dome = plan.eye_dome.strength > 0.0f;
+    if (plan.looks_through || plan.cells || has_dome) {
+        Region drawn = with_border(plan.written, has_dome ? plan.eye_dome.radius_px : 0, width, height);
+        if (plan.cells) drawn = whole_cells(drawn, width, height);
+        if (plan.looks_through) drawn = {0, 0, width, height};
+        set_region(plan.picture, drawn);
+    }
     if (!plan.shadow_views.empty()) plan.casters = plan_casters(prepared, options);
     plan.light_culler = LightCuller(plan.shading.lights);
     if (settings.background_environment) {

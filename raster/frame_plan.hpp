@@ -24,6 +24,17 @@
 
 namespace halflit::raster {
 
+/// Eye-dome lighting of a frame.
+struct EyeDomePlan {
+    float strength = 0.0f;  ///< of the sum of rises; 0: there is none
+    bool all = false;       ///< surfaces of triangles are shaded too
+    int radius_px = 0;      ///< of the circle on which depths are read
+    /// A difference of depths is a rise over a run of one pixel when it is multiplied by this and, in perspective, divided by the pixel's
+    /// own depth + depth_offset.
+    float scale = 0.0f, depth_offset = 0.0f;
+    bool orthographic = false;
+};
+
 struct FramePlan {
     Camera camera;  ///< drawn_camera()
     View picture;
@@ -43,6 +54,7 @@ struct FramePlan {
     bool transmits = false;      ///< light passes through some drawn material
     bool looks_through = false;  ///< some drawn material blurs or bends it: what is behind it is drawn first, of the whole picture
     DepthMap depth;              ///< of the picture's depths
+    EyeDomePlan eye_dome;
     std::vector<EnvironmentUse> environment_uses;
     std::vector<std::string> warnings;
 };

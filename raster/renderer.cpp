@@ -92,6 +92,9 @@ TileCounts Renderer::Impl::draw_tiles(const PicturePass& pass, const Execution& 
             Pool<TileScratch>::Loan loan(scratch);
             counts = PictureTile(pass, tile, *loan).draw();
             if (execution.on_tile) execution.on_tile({rect.x, rect.y, rect.width, rect.height});
+        } else if (pass.eye_dome != nullptr) {
+            Pool<TileScratch>::Loan loan(scratch);
+            PictureTile(pass, tile, *loan).keep_depths();
         }
         const std::lock_guard lock(counting);
         sum += counts;
@@ -142,6 +145,8 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
 
     const TilePass surface_pass{geometry, surface, surface_materials, raster, shade, executor.stop()};
     LayerBudget layers(settings, target.width, target.height);
+    const bool has_dome = shades && plan.eye_dome.strength > 0.0f && only == nullptr;
+    if (has_dome) eye_dome.begin(plan, executor);
     const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, executor.stop(), plan.shading.shadow_offset},
                            plan,
                            output,
@@ -149,23 +154,25 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
                            output.has_surface() ? &surface_pass : nullptr,
                            plan.written,
                            layers,
+                           has_dome ? &eye_dome : nullptr,
                            only};
     TileCounts behind_counts;
     if (shades && plan.looks_through) behind_counts = draw_behind(pass, settings, execution);
     const bool has_lines = shades && settings.edges != EdgeChoice::none && only == nullptr;
     Execution watched = execution;
-    if (has_lines) watched.on_tile = {};  // told after the lines
+    if (has_dome || has_lines) watched.on_tile = {};  // told when the picture is done
     TileCounts tiles = draw_tiles(pass, watched, shades && plan.looks_through ? 0.5 : 0.0);
     tiles.work += behind_counts.work, tiles.fragments_shaded += behind_counts.fragments_shaded;
+    if (has_dome) eye_dome.shade(plan, output, executor);
     if (has_lines) {
         const Execution rest = with_time_left(execution, begun.lap() / 1000.0);
         if (auto ok = draw_edges(scene, plan.camera, settings, output, target.width, target.height, rest, isa); !ok)
             return tl::unexpected<Error>(ok.error());
-        if (execution.on_tile)
-            for (int tile = 0; tile < plan.picture.tile_count(); ++tile)
-                if (const TileRect r = intersection(plan.picture.tile_rect(tile), pass.written); r.width > 0 && r.height > 0)
-                    execution.on_tile({r.x, r.y, r.width, r.height});
     }
+    if ((has_dome || has_lines) && execution.on_tile)
+        for (int tile = 0; tile < plan.picture.tile_count(); ++tile)
+            if (const TileRect r = intersection(plan.picture.tile_rect(tile), pass.written); r.width > 0 && r.height > 0)
+                execution.on_tile({r.x, r.y, r.width, r.height});
     report.ms.tiles = watch.lap();
 
     report.threads = executor.threads();

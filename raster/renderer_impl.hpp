@@ -38,6 +38,7 @@ struct Renderer::Impl {
     std::vector<shading::MaterialPlan> surface_materials;
     raster::ReferenceShading reference;
     raster::Behind behind;
+    raster::EyeDome eye_dome;
     std::unique_ptr<EdgeDrawing> edge_drawing;  ///< only where edges are drawn
     raster::Pool<raster::TileScratch> scratch;
 

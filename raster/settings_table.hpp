@@ -24,6 +24,7 @@ inline constexpr std::string_view kToneCurveNames[] = {"none", "reinhard", "aces
 inline constexpr std::string_view kEdgeChoiceNames[] = {"none", "feature", "silhouette", "all"};
 inline constexpr std::string_view kHiddenEdgeNames[] = {"none", "dashed"};
 inline constexpr std::string_view kAlphaSpaceNames[] = {"linear", "display"};
+inline constexpr std::string_view kEyeDomeNames[] = {"off", "auto", "on"};
 inline constexpr std::string_view kOffOn[] = {"off", "on"};
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16};
 inline constexpr double kEndless = std::numeric_limits<double>::infinity();

@@ -49,6 +49,7 @@ static_assert(HALFLIT_SHADOWS_SOFT_SPLIT == static_cast<int>(ShadowMode::soft_sp
 static_assert(HALFLIT_EDGES_ALL == static_cast<int>(EdgeChoice::all));
 static_assert(HALFLIT_ALPHA_SPACE_DISPLAY == static_cast<int>(AlphaSpace::display));
 static_assert(HALFLIT_HIDDEN_EDGES_DASHED == static_cast<int>(HiddenEdges::dashed));
+static_assert(HALFLIT_EDL_ON == static_cast<int>(EyeDomeLighting::on));
 static_assert(HALFLIT_TONE_REINHARD == static_cast<int>(ToneCurve::reinhard) &&
               HALFLIT_TONE_NEUTRAL == static_cast<int>(ToneCurve::neutral));
 static_assert(HALFLIT_UP_BY_FORMAT == 0 && HALFLIT_UP_X == static_cast<int>(UpAxis::x) + 1 &&

@@ -37,7 +37,7 @@ PYTHON_SETTINGS = "apps/python/halflit/_picture_options.py"
 PYTHON_TABLE = "apps/python/halflit/_options.py"
 ENUMERATIONS = {"kAccuracyNames": "ACCURACY", "kRateNames": "RATE", "kTextureDetailNames": "DETAIL", "kSpecularNames": "SPECULAR",
                 "kShadowModeNames": "SHADOWS", "kToneCurveNames": "TONE", "kEdgeChoiceNames": "EDGES",
-                "kHiddenEdgeNames": "HIDDEN_EDGES", "kAlphaSpaceNames": "ALPHA_SPACE"}
+                "kHiddenEdgeNames": "HIDDEN_EDGES", "kAlphaSpaceNames": "ALPHA_SPACE", "kEyeDomeNames": "EDL"}
 # Setting -> members behind it that no row of the table has.
 BY_HAND = {"edge_width": ["    /// of the lines, linear light, 0 to 1; no light, exposure or tone curve changes it (0, 0, 0)",
                           "    float edge_color[3];"]}

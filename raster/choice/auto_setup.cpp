@@ -185,6 +185,9 @@ Settings usual_settings() {
     settings.sky_shadows = kSkyShadowsAuto;
     settings.contact_shadow = 0.85f;
     settings.shadow_softness_deg = 3.0f;
+    settings.point_size = 0.0f;
+    settings.edl = EyeDomeLighting::automatic;
+    settings.edge_contrast = true;
     settings.background_linear = raster::suited_background({});
     return settings;
 }
@@ -210,7 +213,6 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     setup.view = seen.view, setup.camera = seen.camera;
     setup.settings = usual_settings();
     setup.settings.background_linear = raster::suited_background(scene);
-    setup.settings.point_size = closing_point_size(scene, setup.camera, width, height);
     auto [light, exposure] = raster::completed_light(scene, bounds, setup.camera, options);
     setup.light = std::move(light);
     setup.settings.exposure = options.exposure.value_or(exposure) * exposure_factor(options.exposure_compensation_ev);

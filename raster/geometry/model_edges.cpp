@@ -135,11 +135,11 @@ std::uint64_t ModelEdges::most_bytes(const Scene& scene) {
 
 std::size_t ModelEdges::bytes() const {
     return places_.capacity() * sizeof(Vec3d) +
-           (corners_.capacity() + neighbours_.capacity() + first_face_.capacity()) * sizeof(std::uint32_t) + single_sided_.capacity() / 8 +
-           edges_.capacity() * sizeof(ModelEdge);
+           (corners_.capacity() + neighbours_.capacity() + first_face_.capacity()) * sizeof(std::uint32_t) +
+           (single_sided_.capacity() + dark_.capacity()) / 8 + edges_.capacity() * sizeof(ModelEdge);
 }
 
-void ModelEdges::find(const Scene& scene, double crease_deg) {
+void ModelEdges::find(const Scene& scene, double crease_deg, const std::function<bool(const Instance&)>& is_dark) {
     *this = {};
     const double least_cosine = sin_cos(crease_deg * (kPi / 180.0)).cos;
     std::size_t triangles = 0;
@@ -164,6 +164,7 @@ void ModelEdges::find(const Scene& scene, double crease_deg) {
         surface.add(mesh, instance.world_from_object);
         faces += static_cast<std::uint32_t>(triangles_of(mesh));
         single_sided_.resize(faces, material == nullptr || !material->double_sided);
+        dark_.resize(faces, is_dark && is_dark(instance));
     }
     if (place != nullptr) add_surface(surface, least_cosine);
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace halflit::raster {
@@ -30,7 +31,8 @@ struct ModelEdge {
 class ModelEdges {
 public:
     /// Linear time, 0.15 s for a million triangles. Requires: a scene that was checked. crease_deg: in [0, 180].
-    void find(const Scene& scene, double crease_deg);
+    /// is_dark: of instances whose edges are; none: no edge is dark.
+    void find(const Scene& scene, double crease_deg, const std::function<bool(const Instance&)>& is_dark = {});
     /// Upper bound on the bytes that find() takes at its peak: 400 a triangle where no vertex is shared, 210 in a closed surface.
     [[nodiscard]] static std::uint64_t most_bytes(const Scene& scene);
     /// Bytes that are held.
@@ -52,6 +54,8 @@ public:
     }
     /// The triangle is drawn from one side alone.
     [[nodiscard]] bool single_sided(std::uint32_t face) const { return single_sided_[face]; }
+    /// Both surfaces that meet in the edge are dark.
+    [[nodiscard]] bool is_dark(const ModelEdge& edge) const { return dark_[edge.face[0]] && dark_[edge.face[1]]; }
 
 private:
     void add_surface(class WeldedSurface& surface, double least_cosine);
@@ -60,7 +64,7 @@ private:
     std::vector<std::uint32_t> corners_;     ///< three for each triangle of all instances; those of no area have three zeros
     std::vector<std::uint32_t> neighbours_;  ///< three for each triangle
     std::vector<std::uint32_t> first_face_;  ///< of each instance
-    std::vector<bool> single_sided_;         ///< of each triangle
+    std::vector<bool> single_sided_, dark_;  ///< of each triangle
     std::vector<ModelEdge> edges_;
 };
 

@@ -78,7 +78,7 @@ inline void bin_triangles(const BinArgs& args, const std::uint32_t* index, int c
         if (args.cull_back) keep &= ~back;
         if (keep == 0) continue;
         const I width = x1 - x0 + I(1), height = y1 - y0 + I(1);
-        const std::uint32_t tiny = mask_bits(less(width, I(kTinyBox + 1)) & less(height, I(kTinyBox + 1))) & keep;
+        const std::uint32_t tiny = args.round ? 0 : mask_bits(less(width, I(kTinyBox + 1)) & less(height, I(kTinyBox + 1))) & keep;
         if (tiny != 0) {
             const I x = t.x[1], y = t.y[1];
             t.x[1] = sel(negative, t.x[2], x);

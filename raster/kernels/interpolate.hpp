@@ -95,7 +95,7 @@ struct VertexRecords {
 };
 
 HALFLIT_INLINE VertexRecords vertex_records_of(const InterpolateArgs& args, std::uint32_t id, const TriangleRecord& record) {
-    const DrawRecords draw = args.draws[record.draw_and_back >> 1];
+    const DrawRecords draw = args.draws[record.draw()];
     VertexRecords out;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t v = record.vertex[k];
@@ -185,7 +185,7 @@ HALFLIT_INLINE void find_corners(const InterpolateArgs& args, int at, FragmentCo
         prefetch(records.v[k]);
         prefetch(out.screen[k][at]);
     }
-    out.side[at] = args.facing && (record.draw_and_back & 1u) ? -1.0f : 1.0f;
+    out.side[at] = args.facing && record.is_back() ? -1.0f : 1.0f;
 }
 
 /// Interpolates kWidth lanes of one triangle.

@@ -75,6 +75,7 @@ struct BinArgs {
     const ScreenVertex* screen;    ///< of the draw's vertex 0
     const std::uint8_t* outcodes;  ///< likewise
     bool mirrored, cull_back;
+    bool round;  ///< triangles may stand for circles, so that what they cover does not tell which samples are covered
     int region_x, region_y, region_width, region_height;
     int sample_min_x, sample_max_x, sample_min_y, sample_max_y;
     int tile_shift;  ///< a tile has 2^tile_shift pixels on a side, 16 to 64
@@ -109,7 +110,13 @@ struct VertexRecordArgs {
 /// One triangle in a tile's list. Vertices in the order of positive area with y down: clockwise as seen on the screen.
 struct TriangleRecord {
     std::uint32_t vertex[3];      ///< index into the view's screen vertices; kClipVertex + index into the chunk's clip vertices
-    std::uint32_t draw_and_back;  ///< draw * 2 + (1 for a back face)
+    std::uint32_t draw_and_bits;  ///< draw << kBits, with the bits below
+    [[nodiscard]] HALFLIT_INLINE std::uint32_t draw() const { return draw_and_bits >> kBits; }
+    [[nodiscard]] HALFLIT_INLINE bool is_back() const { return (draw_and_bits & kBackFace) != 0; }
+    /// It stands for a whole point, and covers the circle in its box.
+    [[nodiscard]] HALFLIT_INLINE bool is_round() const { return (draw_and_bits & kRoundPoint) != 0; }
+    static constexpr std::uint32_t kBackFace = 1, kRoundPoint = 2;
+    static constexpr int kBits = 2;
 };
 inline constexpr std::uint32_t kClipVertex = 0x80000000u;
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;

@@ -68,9 +68,9 @@ HALFLIT_INLINE void small_edges(const Edge* edges, const ScreenVertex* const* fr
 }
 
 /// Draws all samples of one triangle in the part of a tile. make_sink(s) gives the sink of sample s. Returns the box walked.
-template <class MakeSink>
-HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part, const SamplePattern& pattern,
-                                      const TriangleSource& source, const TriangleRecord& record, const MakeSink& make_sink) {
+template <bool kRound, class MakeSink>
+HALFLIT_INLINE CoverBox draw_samples(const TileRect& tile, const TileRect& part, const SamplePattern& pattern, const TriangleSource& source,
+                                     const TriangleRecord& record, const MakeSink& make_sink) {
     const ScreenVertex& v0 = vertex_of(source, record.vertex[0]);
     const ScreenVertex& v1 = vertex_of(source, record.vertex[1]);
     const ScreenVertex& v2 = vertex_of(source, record.vertex[2]);
@@ -89,6 +89,12 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part
         bx1 = bx1 >= part.x + part.width ? part.x + part.width - 1 : bx1;
         by1 = by1 >= part.y + part.height ? part.y + part.height - 1 : by1;
         if (bx0 > bx1 || by0 > by1) continue;
+        if constexpr (kRound) {
+            walk<0>(nullptr, make_depth_plane(slope, v0, v1, v2, sx, sy), bx0, by0, bx1 - bx0 + 1, by1 - by0 + 1,
+                    (by0 - tile.y) * kTileStride + (bx0 - tile.x), in_circle(make_sink(s), tile, least_x, most_x, least_y, sx, sy));
+            grow(all, bx0 - tile.x, by0 - tile.y, bx1 - tile.x, by1 - tile.y);
+            continue;
+        }
         if (small) {
             BoxEdge at_corner[3];
             small_edges(edges, from, bx0 * 256 + sx, by0 * 256 + sy, at_corner);
@@ -106,6 +112,13 @@ HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part
     return all;
 }
 
+template <class MakeSink>
+HALFLIT_INLINE CoverBox draw_triangle(const TileRect& tile, const TileRect& part, const SamplePattern& pattern,
+                                      const TriangleSource& source, const TriangleRecord& record, const MakeSink& make_sink) {
+    return record.is_round() ? draw_samples<true>(tile, part, pattern, source, record, make_sink)
+                             : draw_samples<false>(tile, part, pattern, source, record, make_sink);
+}
+
 /// The sink of one triangle.
 template <bool kIds>
 HALFLIT_INLINE auto visible_sink(float* depth, std::uint32_t* triangle, std::uint32_t id) {
@@ -121,7 +134,8 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
                                const std::uint32_t* ids, int sample_x, int sample_y, float* depth, std::uint32_t* triangle) {
     const SampleLanes sample = set_up_sample(tile, corners, setup, sample_x, sample_y);
     const std::uint32_t some = mask_bits(less(I(0), sample.width) & less(I(0), sample.height)) & lanes;
-    const std::uint32_t tiny = mask_bits(less(sample.width, I(kTinyBox + 1)) & less(sample.height, I(kTinyBox + 1))) & some;
+    const std::uint32_t tiny =
+        mask_bits(less(sample.width, I(kTinyBox + 1)) & less(sample.height, I(kTinyBox + 1))) & some & ~corners.round;
     TinyHits hits;
     hits.mask = 0;
     if (tiny != 0) test_tiny(tile, setup, sample, tiny, hits);
@@ -139,13 +153,19 @@ HALFLIT_INLINE void draw_lanes(const TileRect& tile, const TriangleCorners& corn
     if (larger != 0) {
         StoredLanes stored;
         store_lanes(setup, sample, stored);
+        alignas(64) std::int32_t least_x[kWidth], most_x[kWidth], least_y[kWidth];
+        if ((larger & corners.round) != 0) store(least_x, corners.least_x), store(most_x, corners.most_x), store(least_y, corners.least_y);
         // In the order of the list: of equal depths the first stays.
         for (; larger != 0; larger &= larger - 1) {
             const int l = __builtin_ctz(larger);
             const std::uint64_t before = hits.mask & ((std::uint64_t{1} << (4 * l)) - 1u);
             draw_hits(before);
             hits.mask ^= before;
-            walk_lane(tile, stored, l, visible_sink<kIds>(depth, triangle, ids[l]));
+            const auto sink = visible_sink<kIds>(depth, triangle, ids[l]);
+            if ((corners.round >> l & 1) != 0)
+                walk_box_of_lane(tile, stored, l, in_circle(sink, tile, least_x[l], most_x[l], least_y[l], sample_x, sample_y));
+            else
+                walk_lane(tile, stored, l, sink);
         }
     }
     draw_hits(hits.mask);

@@ -9,12 +9,13 @@
 namespace halflit::raster {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// Corners of kWidth triangles. `small`: triangles that the other functions here can set up. Others have all corners at (0, 0).
+/// Corners of kWidth triangles. `small`: triangles that the other functions here can set up. Others have all corners at (0, 0). `round`:
+/// those of round points, unset where only corners are known.
 struct TriangleCorners {
     I x[3], y[3];
     F z[3];
     I least_x, most_x, least_y, most_y;
-    std::uint32_t small;
+    std::uint32_t small, round = 0;
 };
 
 HALFLIT_INLINE TriangleCorners corners_at(const float* const (&corner)[3][kWidth]) {
@@ -46,13 +47,17 @@ HALFLIT_INLINE TriangleCorners corners_at(const float* const (&corner)[3][kWidth
 
 HALFLIT_INLINE TriangleCorners load_corners(const TriangleTable& triangles, const std::uint32_t* ids, int count) {
     const float* corner[3][kWidth];
+    std::uint32_t round = 0;
     for (int l = 0; l < kWidth; ++l) {
         const std::uint32_t id = ids[l < count ? l : count - 1];
         const TriangleSource& source = source_of(triangles, id);
         const TriangleRecord& record = record_of(triangles, id);
         for (int k = 0; k < 3; ++k) corner[k][l] = reinterpret_cast<const float*>(&vertex_of(source, record.vertex[k]));
+        round |= record.is_round() ? 1u << l : 0u;
     }
-    return corners_at(corner);
+    TriangleCorners corners = corners_at(corner);
+    corners.round = round;
+    return corners;
 }
 
 /// Values that all samples of a triangle share, for kWidth triangles: edge functions a x + b y, and the slopes of depth.
@@ -185,6 +190,13 @@ HALFLIT_INLINE void store_lanes(const SetupLanes& s, const SampleLanes& p, Store
     store(out.zy, s.zy);
     store(out.lo, s.lo);
     store(out.hi, s.hi);
+}
+
+/// Walks the box of a lane, whatever the triangle covers of it.
+template <class Sink>
+HALFLIT_INLINE void walk_box_of_lane(const TileRect& tile, const StoredLanes& s, int l, const Sink& sink) {
+    const DepthPlane plane{s.za[l], s.zx[l], s.zy[l], s.lo[l], s.hi[l], s.anchor_x[l], s.anchor_y[l]};
+    walk<0>(nullptr, plane, s.x0[l], s.y0[l], s.width[l], s.height[l], (s.y0[l] - tile.y) * kTileStride + (s.x0[l] - tile.x), sink);
 }
 
 /// Walks the box of a lane.

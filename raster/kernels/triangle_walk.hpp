@@ -157,6 +157,28 @@ struct MarkLayer {
     }
 };
 
+/// Lets a sink have the samples of a circle alone, in 1/256 pixel. Products fit 32 bits for circles of up to 256 pixels.
+template <class Sink>
+struct InCircle {
+    Sink sink;
+    std::int32_t x, y;     ///< from the circle's middle to the sample of the tile's pixel (0, 0)
+    std::int32_t squared;  ///< radius
+
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
+        const int row = at / kTileStride, dy = y + 256 * row;
+        const I dx = I(x + 256 * (at - row * kTileStride)) + I(256) * iota_i();
+        sink.pixels(at, outside | (I(squared - dy * dy) - dx * dx), z);
+    }
+};
+
+/// The circle in a square of the window, whose sides are as given.
+template <class Sink>
+HALFLIT_INLINE InCircle<Sink> in_circle(const Sink& sink, const TileRect& tile, int least_x, int most_x, int least_y, int sample_x,
+                                        int sample_y) {
+    const int size = most_x - least_x, radius = size - size / 2;
+    return {sink, 256 * tile.x + sample_x - (least_x + size / 2), 256 * tile.y + sample_y - (least_y + size / 2), radius * radius};
+}
+
 /// Walks pixels [0, w) x [0, h) of a box with N crossing edges; `at` is the buffer index of its corner.
 template <int N, class Sink>
 HALFLIT_INLINE void walk(const BoxEdge* edges, const DepthPlane& plane, int x0, int y0, int w, int h, int at, const Sink& sink) {

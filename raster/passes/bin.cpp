@@ -80,6 +80,7 @@ private:
         grid_.describe(args);
         args.mirrored = draw.mirrored;
         args.cull_back = draw.cull_back;
+        args.round = draw.topology == Topology::points && in_.view.point_size >= kLeastRound;
         const std::uint32_t* const indices = in_.scene.source_mesh(draw.mesh).indices.data();
         BinnedTriangles binned;
         for (std::uint32_t first = run.first; first < run.end; first += kBinnedAtOnce) {
@@ -217,7 +218,8 @@ private:
         const bool back = (area > 0) != source.draw.mirrored;
         if (back && source.draw.cull_back) return;
         const bool swap = area < 0;
-        if (p.x0 == p.x1 && p.y0 == p.y1 && in_.view.samples.count == 1 && !covers(a, swap ? c : b, swap ? b : c, p.x0 * 256, p.y0 * 256))
+        if (p.x0 == p.x1 && p.y0 == p.y1 && in_.view.samples.count == 1 && !is_round(a, b, c, source) &&
+            !covers(a, swap ? c : b, swap ? b : c, p.x0 * 256, p.y0 * 256))
             return;
 
         const std::uint32_t ordered[3] = {v[0], v[swap ? 2 : 1], v[swap ? 1 : 2]};
@@ -227,9 +229,13 @@ private:
     /// v, a, b, c: in the order of positive area.
     void add_record(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, bool back,
                     const TileGrid::Tiles& tiles, const Source& source) {
+        const bool round = is_round(a, b, c, source);
+        if (round && source.triangle % 2 != 0) return;  // the point's first triangle stands for all of it
         if (is_hidden_by_last(a, b, c, source.draw)) return;
         const auto record = static_cast<std::uint32_t>(chunk_.records.size());
-        chunk_.records.push_back({{v[0], v[1], v[2]}, source.draw_index * 2 + (back ? 1u : 0u)});
+        chunk_.records.push_back({{v[0], v[1], v[2]},
+                                  source.draw_index << TriangleRecord::kBits | (back ? TriangleRecord::kBackFace : 0u) |
+                                      (round ? TriangleRecord::kRoundPoint : 0u)});
         if (in_.numbered) chunk_.numbers.push_back(source.draw.triangle_base + source.triangle);
         for (int k = 0; k < 3; ++k) {
             // Stored only once: other tasks read the same lines.
@@ -244,11 +250,18 @@ private:
             list(grid_.number(tiles.x0, tiles.y0));
             return;
         }
-        grid_.for_each(a, b, c, tiles, list);
+        grid_.for_each(a, b, c, tiles, round, list);
         if (chunk_.pairs.size() > kFreePairs + kPairsPerTriangle * chunk_.records.size()) {
             chunk_.listed = false;
             chunk_.drop_lists();
         }
+    }
+
+    /// Points below this size, in 1/256 pixel, are squares: their corners are less than a sample apart from a circle.
+    static constexpr std::int32_t kLeastRound = 3 * 256;
+
+    static bool is_round(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Source& source) {
+        return source.draw.topology == Topology::points && std::max({a.x, b.x, c.x}) - std::min({a.x, b.x, c.x}) >= kLeastRound;
     }
 
     /// True if the triangle before it is equal, in corners and material, and hides it: of equal depths the first stays. Crafted files
@@ -262,7 +275,7 @@ private:
             return own.x == other.x && own.y == other.y && own.z == other.z && own.inv_w == other.inv_w;
         };
         if (!is(0, a) || !is(1, b) || !is(2, c)) return false;
-        const Draw& of_last = in_.draws[last.draw_and_back >> 1];
+        const Draw& of_last = in_.draws[last.draw()];
         return of_last.material == draw.material && draw.alpha_mode == AlphaMode::opaque && of_last.alpha_mode == AlphaMode::opaque;
     }
 
@@ -339,7 +352,7 @@ std::span<const std::uint32_t> ViewGeometry::tile_list(std::size_t chunk, int ti
     };
     for (std::size_t i = 0; i < from.records.size(); ++i) {
         const TriangleRecord& record = from.records[i];
-        if (grid.touches(corner(record.vertex[0]), corner(record.vertex[1]), corner(record.vertex[2]), tile))
+        if (grid.touches(corner(record.vertex[0]), corner(record.vertex[1]), corner(record.vertex[2]), record.is_round(), tile))
             scratch.push_back(static_cast<std::uint32_t>(i));
     }
     return scratch;

@@ -213,12 +213,13 @@ public:
         double first = 0.0, last = 1.0;
         if (!narrow(x0 - drawn_.x, x1 - x0, drawn_.width, first, last) || !narrow(y0 - drawn_.y, y1 - y0, drawn_.height, first, last))
             return;
+        const bool light = edges_.is_dark(edge);
         const auto add = [&](double t0, double t1, bool hidden) {
             if (hidden && !hidden_too_) return;
             if (placed.backward)
-                lines.push_back({x1, y1, x0, y0, 1.0 - t1, 1.0 - t0, placed.begin_px, hidden});
+                lines.push_back({x1, y1, x0, y0, 1.0 - t1, 1.0 - t0, placed.begin_px, hidden, light});
             else
-                lines.push_back({x0, y0, x1, y1, t0, t1, placed.begin_px, hidden});
+                lines.push_back({x0, y0, x1, y1, t0, t1, placed.begin_px, hidden, light});
         };
         if (view_.turned_away(edge)) {
             add(0.0, 1.0, true);

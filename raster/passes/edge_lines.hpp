@@ -17,6 +17,7 @@ struct EdgeLine {
     double t0, t1;          ///< the part, as shares of the edge's length
     double begin_px;        ///< length of the polyline that the edge continues, up to (x0, y0): the phase of its dashes
     bool hidden;
+    bool light;  ///< it lies on dark surfaces
 };
 
 /// The triangle that each pixel's middle shows, as Target has it, in a part of a picture.

@@ -31,7 +31,7 @@ private:
     [[nodiscard]] SurfacePairs::Pair find(std::uint32_t a, std::uint32_t b) const {
         SurfacePairs::Pair pair{a, b, SurfacePairs::Kind::apart, 0, 0};
         const TriangleRecord &of_a = geometry_.record(a), &of_b = geometry_.record(b);
-        if (!geometry_.draw_of(of_a).few_vertices || of_a.draw_and_back != of_b.draw_and_back) return pair;
+        if (!geometry_.draw_of(of_a).few_vertices || of_a.draw_and_bits != of_b.draw_and_bits) return pair;
         unsigned common = 0, common_of_b = 0;  // bit k: corner k is one of the other triangle's
         for (unsigned k = 0; k < 3; ++k)
             for (unsigned l = 0; l < 3; ++l) {
@@ -73,7 +73,7 @@ private:
         constexpr std::int64_t kPixel = 256, kTwiceTheArea = 2 * 32 * kPixel * kPixel;
         const std::int64_t ux = at[1]->x - at[0]->x, uy = at[1]->y - at[0]->y, vx = at[2]->x - at[0]->x, vy = at[2]->y - at[0]->y;
         shape.large = ux * vy - uy * vx >= kTwiceTheArea;
-        const std::size_t draw = triangle.draw_and_back >> 1;
+        const std::size_t draw = triangle.draw();
         if (records_.stride(draw) <= shading::kNormalX + 2) return shape;  // no light, no normals
         constexpr float kLeastCosineSquared = 0.8125f;
         const auto product = [](const float* m, const float* n) { return (m[0] * n[0] + m[1] * n[1]) + m[2] * n[2]; };

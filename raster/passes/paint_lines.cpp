@@ -10,6 +10,7 @@ namespace halflit::raster {
 namespace {
 
 constexpr double kHiddenWidth = 0.7, kHiddenShare = 0.6;  ///< of seen lines' width and cover
+constexpr Vec3f kLightLine{0.74f, 0.74f, 0.74f};          ///< 224 codes
 constexpr double kDash = 6.0, kGap = 4.0;                 ///< widths of the hidden line, its round ends included
 
 /// Shares of the pixels of some rows that lines cover, 0 to 255.
@@ -159,15 +160,22 @@ private:
 
 void paint_lines(std::span<const EdgeLine> lines, const Settings& settings, const Region& region, const Output& output,
                  const shading::ShadeKernels& shade, Executor& executor) {
-    const OverPixel over(settings.edge_color_linear, output, shade);
+    const OverPixel of_color(settings.edge_color_linear, output, shade), of_light(kLightLine, output, shade);
     const LineBands bands(lines, settings.edge_width, region, executor.stop());
     executor.run(bands.count(), [&](int band) {
         const int y0 = region.y + band * LineBands::kRows, height = std::min(LineBands::kRows, region.y + region.height - y0);
-        CoverRows cover(region.x, y0, region.width, height);
-        for (const std::uint32_t line : bands.lines(band)) cover.add(lines[line], settings.edge_width);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < region.width; ++x)
-                if (const unsigned share = cover.row(y)[x]; share > 0) over.paint(region.x + x, y0 + y, share);
+        const auto paint = [&](bool light, const OverPixel& over) {
+            const auto is_one = [&](std::uint32_t line) { return lines[line].light == light; };
+            if (std::none_of(bands.lines(band).begin(), bands.lines(band).end(), is_one)) return;
+            CoverRows cover(region.x, y0, region.width, height);
+            for (const std::uint32_t line : bands.lines(band))
+                if (is_one(line)) cover.add(lines[line], settings.edge_width);
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < region.width; ++x)
+                    if (const unsigned share = cover.row(y)[x]; share > 0) over.paint(region.x + x, y0 + y, share);
+        };
+        paint(false, of_color);
+        paint(true, of_light);
     });
 }
 

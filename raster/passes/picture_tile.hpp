@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raster/frame_plan.hpp"
+#include "raster/passes/eye_dome.hpp"
 #include "raster/passes/output.hpp"
 #include "raster/passes/reference_shading.hpp"
 #include "raster/passes/tile.hpp"
@@ -42,6 +43,7 @@ struct PicturePass {
     const TilePass* surface;            ///< reads what the planes of surfaces need; null: there are none
     Region written;                     ///< pixels of the output; the picture's region may be larger
     LayerBudget& layers;
+    EyeDome* eye_dome = nullptr;      ///< keeps depths; null: there is none
     const PixelMask* only = nullptr;  ///< if there is one, other pixels are not shaded, and what is written there has no meaning
 };
 
@@ -58,6 +60,7 @@ public:
           toned_(plan_.tone_curve != ToneCurve::none && pass.output.codes) {}
 
     TileCounts draw();
+    void keep_depths();  ///< of a tile that is not written
 
 private:
     // shade.cpp

@@ -73,7 +73,8 @@ void transform_quads(const RasterKernels& kernels, const TransformArgs& args, co
         std::uint8_t* out_codes = args.outcodes + (first << draw.vertex_shift());
         if (draw.topology == Topology::points) {
             for (std::int64_t i = 0; i < count; ++i) {
-                expand_point(screen[i], view.point_size, out + 4 * i);
+                expand_point(screen[i], view.point_sizes.empty() ? view.point_size : view.point_sizes.at(screen[i].x, screen[i].y),
+                             out + 4 * i);
                 for (int k = 0; k < 4; ++k) out_codes[4 * i + k] = codes[i] & kKept;
             }
             continue;

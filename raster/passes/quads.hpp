@@ -12,7 +12,7 @@
 
 namespace halflit::raster {
 
-/// Width of lines or side of points in a view, in 1/256 pixel.
+/// Width of lines or largest side of points in a view, in 1/256 pixel.
 [[nodiscard]] inline int size_of(const View& view, Topology topology) {
     return topology == Topology::lines ? view.line_width : topology == Topology::points ? view.point_size : 0;
 }

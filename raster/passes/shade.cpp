@@ -19,6 +19,7 @@ TileCounts PictureTile::draw() {
     joins_ = shades_ && plan_.options.rate == ShadingRate::pixel && pass_.view.geometry.few_vertices();
     has_whole_ = samples_ > 1 && !layered && !empty && pass_.reference == nullptr;
     if (!empty) draw_visibility(pass_.view, tile_, scratch_, counts_);
+    if (pass_.eye_dome != nullptr) pass_.eye_dome->keep(rect_, empty ? nullptr : &scratch_.buffers, pass_.view.geometry);
     if (shades_ && empty) fill_background();
     if (shades_ && !empty) clear();
     if (pass_.output.has_planes()) write_planes(empty);
@@ -32,6 +33,12 @@ TileCounts PictureTile::draw() {
     if (layered) blend_layers();
     if (!direct_) resolve();
     return counts_;
+}
+
+void PictureTile::keep_depths() {
+    if (pass_.view.geometry.tile_is_empty(tile_)) return;
+    draw_visibility(pass_.view, tile_, scratch_, counts_);
+    pass_.eye_dome->keep(rect_, &scratch_.buffers, pass_.view.geometry);
 }
 
 void PictureTile::shade_visible() {

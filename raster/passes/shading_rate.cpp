@@ -35,7 +35,7 @@ Vec3f row3(const FragmentBlock& block, int row, int l) { return {block.lane[row]
 /// Loads a triangle into lane `l`: the mean of its vertices, with the normal of its plane on the viewer's side.
 void load_triangle(const TilePass& pass, std::uint32_t id, shading::SlotMask slots, FragmentBlock& block, int l) {
     const TriangleRecord& triangle = pass.geometry.record(id);
-    const std::size_t chunk = pass.geometry.chunk_of(id), draw = triangle.draw_and_back >> 1;
+    const std::size_t chunk = pass.geometry.chunk_of(id), draw = triangle.draw();
     const float* v[3];
     for (int k = 0; k < 3; ++k) v[k] = pass.records.of_corner(chunk, draw, triangle.vertex[k]);
     float mean[shading::kVertexFloats];

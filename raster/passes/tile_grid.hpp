@@ -77,21 +77,22 @@ public:
 
     [[nodiscard]] int number(int tx, int ty) const { return ty * view_.tiles_x + tx; }
 
-    /// Calls visit(tile number) for each tile that a triangle touches, row by row. a, b, c: in the order of positive area.
+    /// Calls visit(tile number) for each tile that a triangle touches, row by row. a, b, c: in the order of positive area. box: its whole
+    /// box counts.
     template <class Visit>
-    void for_each(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Tiles& t, const Visit& visit) const {
-        const bool one_line = t.x0 == t.x1 || t.y0 == t.y1;
+    void for_each(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Tiles& t, bool box, const Visit& visit) const {
+        const bool all = box || t.x0 == t.x1 || t.y0 == t.y1;
         for (int ty = t.y0; ty <= t.y1; ++ty)
             for (int tx = t.x0; tx <= t.x1; ++tx)
-                if (one_line || !outside(a, b, c, tx, ty)) visit(number(tx, ty));
+                if (all || !outside(a, b, c, tx, ty)) visit(number(tx, ty));
     }
 
     /// True if for_each() would visit the tile.
-    [[nodiscard]] bool touches(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int tile) const {
+    [[nodiscard]] bool touches(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, bool box, int tile) const {
         const Tiles t = tiles(pixels(a, b, c));
         const int tx = tile % view_.tiles_x, ty = tile / view_.tiles_x;
         if (tx < t.x0 || tx > t.x1 || ty < t.y0 || ty > t.y1) return false;
-        return t.x0 == t.x1 || t.y0 == t.y1 || !outside(a, b, c, tx, ty);
+        return box || t.x0 == t.x1 || t.y0 == t.y1 || !outside(a, b, c, tx, ty);
     }
 
 private:

@@ -58,8 +58,8 @@ void copy_vertices(Chunk& chunk, std::span<const Draw> draws, const BaseOf& base
     NumberSet units;  // vertices, or quads of four
     auto clip = chunk.clip_vertices.begin();
     for (auto first = chunk.records.begin(); first != chunk.records.end();) {
-        const std::uint32_t number = first->draw_and_back >> 1;
-        const auto last = std::find_if(first, chunk.records.end(), [=](const TriangleRecord& r) { return r.draw_and_back >> 1 != number; });
+        const std::uint32_t number = first->draw();
+        const auto last = std::find_if(first, chunk.records.end(), [=](const TriangleRecord& r) { return r.draw() != number; });
         const auto clip_last = std::find_if(clip, chunk.clip_vertices.end(), [=](const ClipVertex& v) { return v.draw != number; });
         const auto for_each_vertex = [&](const auto& use) {
             for (auto r = first; r != last; ++r)

@@ -146,7 +146,7 @@ public:
     /// Material of all triangles of the view, or of a chunk; -1: they have several.
     [[nodiscard]] int one_material() const { return one_material_; }
     [[nodiscard]] int one_material(std::size_t chunk) const { return chunks_[chunk]->material; }
-    [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw_and_back >> 1]; }
+    [[nodiscard]] const Draw& draw_of(const TriangleRecord& record) const { return draws_[record.draw()]; }
     /// Number of a triangle in submission order, over all instances of the scene; and of the triangle, line or point in its mesh. Only if
     /// `numbered`.
     [[nodiscard]] std::int64_t submission_of(std::uint32_t id) const {

@@ -37,12 +37,16 @@ View make_view(const Camera& camera, int width, int height, const Region& region
     view.viewport.half_height = static_cast<float>(height) * 0.5f;
     view.viewport.guard_x = static_cast<float>(kGuardBandPx) / view.viewport.half_width;
     view.viewport.guard_y = static_cast<float>(kGuardBandPx) / view.viewport.half_height;
-    view.region = region.width != 0 ? region : Region{0, 0, width, height};
     view.tile_size = tile_size;
-    view.tiles_x = (view.region.width + tile_size - 1) / tile_size;
-    view.tiles_y = (view.region.height + tile_size - 1) / tile_size;
+    set_region(view, region.width != 0 ? region : Region{0, 0, width, height});
     view.samples = sample_pattern(samples);
     return view;
+}
+
+void set_region(View& view, const Region& region) {
+    view.region = region;
+    view.tiles_x = (region.width + view.tile_size - 1) / view.tile_size;
+    view.tiles_y = (region.height + view.tile_size - 1) / view.tile_size;
 }
 
 void lift_lines(View& view, const Camera& camera, double width_px) {

@@ -4,6 +4,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/settings.hpp"
 #include "raster/kernels/raster_kernels.hpp"
+#include "raster/view/point_sizes.hpp"
 
 namespace halflit::raster {
 
@@ -15,6 +16,7 @@ struct View {
     SamplePattern samples;
     /// Width of lines and side of points, in 1/256 pixel; 0: they are not drawn. Faces of shadow maps leave them out.
     int line_width = 0, point_size = 0;
+    PointSizes point_sizes;  ///< of points, by their place; point_size is the largest. Empty: all have that
     /// Depths of lines are line_depth_scale * z + line_depth_offset (lift_lines).
     float line_depth_scale = 1.0f, line_depth_offset = 0.0f;
 
@@ -42,6 +44,9 @@ struct View {
 
 /// View of a camera through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4, 8 or 16.
 [[nodiscard]] View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples);
+
+/// Draws another region of the window.
+void set_region(View& view, const Region& region);
 
 /// Lets lines of this width, in pixels, lie before the surfaces that they lie on: nearer by as much as such a surface, tilted by up to 63
 /// degrees, rises within half the width of the line. In perspective that is a share of the distance.

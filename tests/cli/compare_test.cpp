@@ -257,6 +257,20 @@ TEST_CASE("compare: the comment for a pull request refers to the sheet beside it
     CHECK(!Json::parse(contents(folder.file("out.json")), nullptr, false).is_discarded());
 }
 
+TEST_CASE("compare: pictures have the lines of edges, unless flags say otherwise", "[cli][compare]") {
+    const Pair pair(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1}));
+    const auto sheet = [&](const char* edges) {
+        const std::string folder = pair.folder.file(std::string("sheet") + edges);
+        std::vector<std::string> words{"compare", pair.a, pair.b, "--size", "96x72", "--view", "iso", "-o", folder};
+        if (*edges != 0) words.insert(words.end(), {"--edges", edges});
+        CHECK(run(words).code == 0);
+        return read_picture(contents(folder + "/compare.png")).rgba8;
+    };
+    const auto usual = sheet("");
+    CHECK(usual == sheet("feature"));
+    CHECK(usual != sheet("none"));
+}
+
 TEST_CASE("compare: models are not overwritten, and wrong flags fail", "[cli][compare]") {
     const Pair pair(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1}));
     CHECK(run({"compare", pair.a, pair.b, "--json", pair.a}).code == 4);

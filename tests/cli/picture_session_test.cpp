@@ -57,6 +57,7 @@ const std::map<std::string, std::string> kValues{{"--size", "40x40"},
                                                  {"--edge-color", "red"},
                                                  {"--edge-angle", "5"},
                                                  {"--edge-width", "3"},
+                                                 {"--edl-strength", "2"},
                                                  {"--max-error", "2"},
                                                  {"--anisotropy", "16"},
                                                  {"--light", "point:pos=0,3,1:power=900"}};

@@ -22,18 +22,19 @@ FLAG = {"texture_detail": "texture-filter", "tone_curve": "tonemap", "normalize_
 NO_FLAG = ("environment_tolerance", "emission_scale", "shadow_memory_limit")
 #: In range, at the ends, and out of range.
 NUMBERS = {
-    "max_error": [0, 0.001, 0.5, 255, 256, -1, "x"], "samples": [1, 4, 8, 16, 0, 2, 17, "", "4x"], "point_size": [0.0625, 1, 256, 0.05, 257],
+    "max_error": [0, 0.001, 0.5, 255, 256, -1, "x"], "samples": [1, 4, 8, 16, 0, 2, 17, "", "4x"],
+    "point_size": [0, "auto", 0.0625, 1, 256, 0.05, 257],
     "line_width": [0.0625, 1, 256, 0.05, 257, "nan", "inf"], "anisotropy": [1, 3, 4, 16, 0, 17], "normal_scale": [0, 1, 16, -1, 17],
     "environment_bands": [0, "auto", 1, 10, 11, -1], "shadow_size": [0, "auto", 64, 256, 1024, 63, 100, 8192, 64.5],
     "soft_shadow_maps": [4, 16, 64, 3, 65], "shadow_fade": [0, 0.5, 1e9, -1, 1e-7], "sky_shadows": [0, 1, "auto", 16, 64, 2, 1025],
     "edge_angle_deg": [0, 30, 180, -1, 181], "edge_width": [0.25, 3, 64, 0.2, 65], "max_layers": [0, "none", 1, 1 << 20, -1, (1 << 20) + 1],
-    "contact_shadow": [0, 0.5, 1, -0.1, 1.1],
+    "contact_shadow": [0, 0.5, 1, -0.1, 1.1], "edl_strength": [0, 0.5, 16, -1, 17],
 }  # fmt: skip
 NAMED = {
     "tone_curve": ["none", "reinhard", "aces", "neutral", "filmic", ""], "accuracy": ["reference", "exact", "fast"],
     "texture_detail": ["full", "bilinear", "nearest", "x"], "specular": ["none", "phong", "blinn", "ggx", "x"],
     "shading_rate": ["flat", "gouraud", "pixel", "x"], "shadows": ["off", "hard", "soft_split", "soft-split", "x"],
-    "edges": ["none", "feature", "silhouette", "all", "x"], "hidden_edges": ["none", "dashed", "x"],
+    "edges": ["none", "feature", "silhouette", "all", "x"], "hidden_edges": ["none", "dashed", "x"], "edl": ["off", "auto", "on", "x"],
 }  # fmt: skip
 #: Those that were answered differently, and others of a view.
 OTHERS = [

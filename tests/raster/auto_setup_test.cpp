@@ -59,6 +59,7 @@ bool chosen(const Camera& camera, Scene scene = box_scene()) {
 
 TEST_CASE(
     "setup: the usual settings are four samples over dark grey, the neutral curve, hidden skies, a contact shadow, anisotropic filters, "
+    "points that close their surface and have form, lines that contrast, "
     "and else defaults",
     "[raster][setup]") {
     Settings s = usual_settings();
@@ -73,6 +74,12 @@ TEST_CASE(
     s.samples = Settings{}.samples;
     s.sky_shadows = Settings{}.sky_shadows;
     s.contact_shadow = Settings{}.contact_shadow;
+    CHECK(s.point_size == 0.0f);
+    CHECK(s.edl == EyeDomeLighting::automatic);
+    CHECK(s.edge_contrast);
+    s.point_size = Settings{}.point_size;
+    s.edl = Settings{}.edl;
+    s.edge_contrast = Settings{}.edge_contrast;
     s.tone_curve = Settings{}.tone_curve;
     s.shading.anisotropy = Settings{}.shading.anisotropy;
     CHECK(s.shadow_softness_deg == 3);
@@ -419,32 +426,6 @@ TEST_CASE("auto setup: a scene that faces back is seen from there, unless a view
     AutoOptions options;
     options.view.azimuth_deg = 10;
     CHECK(auto_setup(scene, 64, 64, options).view.azimuth_deg == 10.0f);
-}
-
-TEST_CASE("auto setup: points have the size that closes their surface", "[raster]") {
-    const auto size = [](int side, int width, int height) {
-        Scene scene;
-        Mesh mesh;
-        mesh.topology = Topology::points;
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-                mesh.positions.push_back(
-                    {static_cast<float>(x) / static_cast<float>(side), static_cast<float>(y) / static_cast<float>(side), 0});
-            }
-        scene.meshes.push_back(std::move(mesh));
-        scene.instances.push_back({0, {}});
-        Camera camera = seen_from({0.5f, 0.5f, 5}, {0.5f, 0.5f, 0});
-        camera.orthographic = true, camera.half_height = 0.5f;
-        return auto_setup(scene, width, height, {.camera = camera}).settings.point_size;
-    };
-    // Points 4 pixels apart, all over the picture; a body has two layers of them.
-    CHECK(size(200, 800, 800) == Approx(4 * 1.6 * std::sqrt(2.0)).epsilon(0.05));
-    CHECK(size(400, 1600, 1600) == Approx(4 * 1.6 * std::sqrt(2.0)).epsilon(0.05));
-    CHECK(size(1600, 800, 800) == 2.0f);
-    CHECK(size(2, 800, 800) == 20.0f);
-    Scene scene = box_scene();
-    CHECK(auto_setup(scene, 800, 800).settings.point_size == Settings{}.point_size);
 }
 
 TEST_CASE("setup: vertices and lights that are not finite leave a finite setup", "[raster][setup]") {

@@ -56,6 +56,37 @@ Drawn drawn(const Scene& scene, const Settings& settings, const Execution& execu
 
 }  // namespace
 
+TEST_CASE("edges: black lines are light on dark materials and black on others, and a colour that is asked for stays", "[edges]") {
+    const auto line_codes = [](float albedo, Vec3f color, bool contrast) {
+        Scene scene;
+        scene.materials.resize(1);
+        scene.materials[0].unlit = true;
+        scene.materials[0].base_color = {albedo, albedo, albedo, 1};
+        scene.meshes = {make_box({1, 1, 1})};
+        scene.meshes[0].material = 0;
+        scene.instances = {{0, {}}};
+        Settings settings;
+        settings.background_linear = {0.5f, 0.5f, 0.5f, 1};
+        const Drawn plain = drawn(scene, settings);
+        settings.edges = EdgeChoice::feature, settings.edge_width = 3;
+        settings.edge_color_linear = color, settings.edge_contrast = contrast;
+        const Drawn lined = drawn(scene, settings);
+        // The middle of a line shows it alone; of those pixels, the ones before the box.
+        std::vector<int> codes;
+        const std::size_t middle = std::size_t{4} * (kHeight / 2 * kWidth + kWidth / 2);
+        for (std::size_t i = 0; i < lined.codes.size(); i += 4)
+            if (lined.codes[i] != plain.codes[i] && plain.codes[i] == plain.codes[middle]) codes.push_back(lined.codes[i]);
+        std::sort(codes.begin(), codes.end());
+        REQUIRE(codes.size() > 100);
+        return std::pair{codes.front(), codes.back()};
+    };
+    for (const float albedo : {0.0f, 0.01f, 0.05f, 0.19f}) CHECK(line_codes(albedo, {}, true).second >= 200);
+    for (const float albedo : {0.21f, 0.5f, 1.0f}) CHECK(line_codes(albedo, {}, true) == line_codes(albedo, {}, false));
+    CHECK(line_codes(0.3f, {}, true).first == 0);
+    CHECK(line_codes(0.01f, {}, false).first == 0);
+    CHECK(line_codes(0.01f, {0, 0, 0.5f}, true) == line_codes(0.01f, {0, 0, 0.5f}, false));
+}
+
 TEST_CASE("edges: instruction sets, threads and tile sizes give the same bytes", "[edges]") {
     const Scene scene = some_scene();
     for (const int samples : {1, 4}) {

@@ -123,9 +123,10 @@ Camera near_camera() {
 
 }  // namespace
 
-TEST_CASE("points: a square covers the pixel centres inside, with those on its upper and left side", "[raster][points]") {
+TEST_CASE("points: squares below 3 pixels, with their upper and left side, and circles from there cover the pixel centres inside",
+          "[raster][points]") {
     std::mt19937 random(1);
-    for (const float size : {1.0f, 2.0f, 3.5f, 7.25f, 40.0f}) {
+    for (const float size : {1.0f, 2.0f, 2.75f, 3.0f, 3.5f, 7.25f, 40.0f, 63.5f, 64.0f, 90.0f}) {
         const double x = 8 + static_cast<double>(random() % (80 * 256)) / 256, y = 8 + static_cast<double>(random() % (80 * 256)) / 256;
         Settings settings = plain(1);
         settings.point_size = size;
@@ -138,7 +139,8 @@ TEST_CASE("points: a square covers the pixel centres inside, with those on its u
         for (int j = 0; j < kSize; ++j)
             for (int i = 0; i < kSize; ++i) {
                 const double cx = i + 0.5, cy = j + 0.5;
-                const bool inside = cx >= low_x && cx < low_x + double{size} && cy >= low_y && cy < low_y + double{size};
+                const bool inside = size < 3.0f ? cx >= low_x && cx < low_x + double{size} && cy >= low_y && cy < low_y + double{size}
+                                                : std::hypot(cx - x, cy - y) <= 0.5 * double{size};
                 inside_count += inside ? 1 : 0;
                 wrong += (alpha_at(linear, i, j) == 1.0) != inside ? 1 : 0;
             }
@@ -164,7 +166,8 @@ TEST_CASE("points and lines: samples share in their area", "[raster][points]") {
     for (int k = 0; k < kCount; ++k) {
         settings.point_size = at(1, 9);
         settings.line_width = at(1, 6);
-        const double area = double{settings.point_size} * double{settings.point_size};
+        const double square = double{settings.point_size} * double{settings.point_size};
+        const double area = settings.point_size < 3.0f ? square : 0.25 * 3.14159265358979 * square;
         off_points += std::abs(total(linear_of(scene_of(points_at({{at(16, 80), at(16, 80), 0}})), pixel_camera(), settings)) / area - 1);
         const Vec3f a{at(8, 88), at(8, 88), 0}, b{at(8, 88), at(8, 88), -3};
         const double length = std::hypot(double{b.x - a.x}, double{b.y - a.y});
@@ -277,6 +280,10 @@ TEST_CASE("points and lines: the same pixels from every instruction set, thread 
         settings.point_size = 9.3f;
         settings.line_width = 5.1f;
         settings.background_linear = {0.1f, 0.1f, 0.1f, 1};
+        const int look = GENERATE(0, 1, 2);
+        if (look > 0) settings.point_size = 0;
+        if (look > 0) settings.edl = look == 1 ? EyeDomeLighting::automatic : EyeDomeLighting::on;
+        CAPTURE(look);
         std::vector<std::uint8_t> expected(std::size_t{4} * kWidth * kHeight);
         REQUIRE(render(scene, camera, settings, {kWidth, kHeight, expected.data()}, {.threads = 1, .isa = Isa::scalar}));
         int tile = 16, threads = 1;
@@ -331,7 +338,7 @@ TEST_CASE("points and lines: faulty ones are refused, and those that are not fin
     for (const float size : {0.0f, 0.05f, 257.0f, std::numeric_limits<float>::quiet_NaN()}) {
         Settings settings = plain(1);
         settings.point_size = size;
-        CHECK(!check_settings(settings, 10, 10));
+        CHECK(!check_settings(settings, 10, 10) == (size != 0.0f));  // 0: chosen by the renderer
         settings = plain(1);
         settings.line_width = size;
         CHECK(!check_settings(settings, 10, 10));

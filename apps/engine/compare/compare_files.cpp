@@ -95,6 +95,8 @@ std::vector<FlagGroup> compare_flags(CompareOptions& options) {
     constexpr std::string_view kLeftOut[] = {"--region",       "--camera",  "--camera-position", "--camera-target", "--camera-file",
                                              "--camera-orbit", "--azimuth", "--elevation",       "--ortho",         "--orthographic"};
     remove_flags(groups, kLeftOut);
+    tell_default(groups, "--edges", "none", "feature");
+    tell_default(groups, "--shadows", "soft-split", "off");
     groups.push_back({"Differences",
                       {{"--max", "CODES", "Ignore differences up to this many 8-bit codes; 0 to 255 (default 2)",
                         read_int(options.max_codes, 0, 255)}}});

@@ -69,6 +69,7 @@ void warn_of_units(ModelPair& pair) {
 CompareOptions with_defaults(CompareOptions flags) {
     flags.view.orthographic = !flags.fov_given;
     if (!flags.has_given("shadows")) flags.settings.shadows = ShadowMode::off;  // no change of shape
+    if (!flags.has_given("edges")) flags.settings.edges = EdgeChoice::feature;
     flags.size = flags.size.value_or(kCompareSize);
     if (flags.film.views.empty()) flags.film.views = usual_views();
     return flags;

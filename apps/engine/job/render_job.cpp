@@ -152,8 +152,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
         background = {kept.x, kept.y, kept.z, 1.0f};
     }
     job.settings.background_linear = options.background_linear.value_or(background);
-    if (!options.has_given("point_size"))
-        job.settings.point_size = options.kept_view ? static_cast<float>(options.kept_view->point_size) : choice->settings.point_size;
+    if (options.kept_view && !options.has_given("point_size")) job.settings.point_size = static_cast<float>(options.kept_view->point_size);
     job.settings.region = options.settings.region.width > 0 ? options.settings.region : Region{0, 0, job.width, job.height};
     return {};
 }

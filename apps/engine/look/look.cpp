@@ -115,16 +115,8 @@ std::string certificate_line(const Certificate& certificate, std::size_t views) 
 
 std::vector<FlagGroup> look_flags(LookOptions& o) {
     auto groups = render_flags(o, kViewSize);
-    for (FlagGroup& group : groups)
-        for (Flag& flag : group.flags) {
-            const auto tell_default = [&](const char* name, const std::string& usual, const char* own) {
-                const std::string text = "(default " + usual + ")";
-                if (const std::size_t at = flag.help.find(text); flag.names == name && at != std::string::npos)
-                    flag.help.replace(at, text.size(), fmt::format("(default {})", own));
-            };
-            tell_default("--edges", "none", "feature");
-            tell_default("--shadows", "soft-split", "off");
-        }
+    tell_default(groups, "--edges", "none", "feature");
+    tell_default(groups, "--shadows", "soft-split", "off");
     groups.insert(
         groups.begin(),
         {"Sheet",

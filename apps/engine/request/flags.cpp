@@ -99,4 +99,12 @@ void remove_flags(std::vector<FlagGroup>& groups, std::span<const std::string_vi
     std::erase_if(groups, [](const FlagGroup& group) { return group.flags.empty(); });
 }
 
+void tell_default(std::vector<FlagGroup>& groups, std::string_view name, const std::string& usual, const std::string& own) {
+    const std::string text = "(default " + usual + ")";
+    for (FlagGroup& group : groups)
+        for (Flag& flag : group.flags)
+            if (const std::size_t at = flag.help.find(text); flag.names == name && at != std::string::npos)
+                flag.help.replace(at, text.size(), "(default " + own + ")");
+}
+
 }  // namespace halflit::engine

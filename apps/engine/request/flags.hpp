@@ -127,4 +127,7 @@ using StageLines = std::array<std::string, 3>;
 /// Removes the flags of these long names.
 void remove_flags(std::vector<FlagGroup>& groups, std::span<const std::string_view> long_names);
 
+/// Changes "(default usual)" in a flag's help, where a command has a default of its own.
+void tell_default(std::vector<FlagGroup>& groups, std::string_view name, const std::string& usual, const std::string& own);
+
 }  // namespace halflit::engine

@@ -402,6 +402,7 @@ FlagGroup line_flags(RenderOptions& o) {
     return {"Lines",
             {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)",
               [&o](const std::string& text) {
+                  if (!o.has_given("edge_contrast")) o.settings.edge_contrast = false;
                   return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
               }}},
             Stage::draw};

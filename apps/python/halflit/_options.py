@@ -74,6 +74,9 @@ SETTINGS: Dict[str, Tuple[str, str]] = {
     "contact_shadow": ("contact_shadow", "float"),
     "alpha": ("alpha", "ALPHA_SPACE"),
     "shadow_softness_deg": ("shadow_softness_deg", "float"),
+    "edl": ("edl", "EDL"),
+    "edl_strength": ("edl_strength", "float"),
+    "edge_contrast": ("edge_contrast", "bool"),
 }
 #: Keywords that have another place here.
 _ELSEWHERE = {
@@ -104,6 +107,8 @@ def apply_settings(settings: Any, options: Dict[Any, Any]) -> None:
             set_background(settings, value)
         elif name == "edge_color":
             settings.edge_color = (ctypes.c_float * 3)(*color(value, name, 3, 1))
+            if options.get("edge_contrast") is None:
+                settings.edge_contrast = 0
         elif name == "lobe":
             settings.lobe, settings.override_lobe = Lobe._from(value)._c, 1
         else:

@@ -72,7 +72,9 @@ class PictureOptions(ViewOptions, total=False):
         samples: per pixel: 1, 4, 8 or 16 (4)
         tone_curve: from light to codes, for each sample, after exposure; pictures of floats and the background colour do without:
             "none", "reinhard", "aces", "neutral" (neutral)
-        point_size: side of points, pixels, 1/16 to 256; rounded to 1/256 (2)
+        point_size: Size of points, pixels, 1/16 to 256; rounded to 1/256. From 3 on they are round, below that square. 0: the sizes
+            that close the surface that they lie on, by their distances in the picture: 2 at least, a 25th of the picture's shorter
+            side at most. (0.0)
         line_width: width of lines, likewise (1.5)
         accuracy: arithmetic; exact if there is an error budget: "reference", "exact" (exact)
         texture_detail: upper limit of the texture filters: "full", "bilinear", "nearest" (full)
@@ -111,6 +113,10 @@ class PictureOptions(ViewOptions, total=False):
         shadow_softness_deg: Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of
             its shadows show it, by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide.
             Degrees, 0 to 10; 0: all edges are sharp. (3.0)
+        edl: Shading by the depths of the picture: a surface is darker where its neighbours are nearer to the viewer. Transparent
+            surfaces count as not there.: "off", "auto", "on" (automatic)
+        edl_strength: of that shading, 0 to 16 (1)
+        edge_contrast: black lines on surfaces of dark materials are light grey instead (True)
 
     How it is computed: nothing of this changes a pixel:
         threads: 0: one for each core (0)
@@ -163,6 +169,9 @@ class PictureOptions(ViewOptions, total=False):
     contact_shadow: float
     alpha: Literal["linear", "display"]
     shadow_softness_deg: float
+    edl: Literal["off", "auto", "on"]
+    edl_strength: float
+    edge_contrast: bool
     # How it is computed.
     threads: int
     isa: Isa

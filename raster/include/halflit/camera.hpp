@@ -128,8 +128,4 @@ struct FramedView {
 /// or from behind and below, whichever is the first that shows something. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API FramedView choose_view(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
 
-/// Settings::point_size, pixels, at which the points of a scene close the surface that they lie on, as this camera sees it: by their mean
-/// distance in the picture; 2 at least, a fortieth of the picture's shorter side at most.
-[[nodiscard]] HALFLIT_API float closing_point_size(const Scene& scene, const Camera& camera, int width, int height);
-
 }  // namespace halflit

@@ -11,9 +11,9 @@
 
 namespace halflit {
 
-/// Primitives that a mesh is made of. Lines and points are drawn as quads that face the screen: a line as a rectangle of
-/// Settings::line_width pixels around it, without caps, a point as a square of Settings::point_size pixels. They are seen from all sides,
-/// hide each other and triangles by depth, receive shadows and cast none.
+/// Primitives that a mesh is made of. Lines and points are drawn as shapes that face the screen: a line as a rectangle of
+/// Settings::line_width pixels around it, without caps, a point as a circle of Settings::point_size pixels (a square below 3). They are
+/// seen from all sides, hide each other and triangles by depth, receive shadows and cast none.
 enum class Topology : std::uint8_t { triangles, lines, points };
 
 /// Entries of Mesh::indices for each primitive.

@@ -38,6 +38,13 @@ enum class AlphaSpace : std::uint8_t {
     display  ///< for programs that blend codes, as browsers do: a blend over white has the codes that a blend of light has
 };
 
+/// Surfaces that eye-dome lighting shades.
+enum class EyeDomeLighting : std::uint8_t {
+    off,
+    automatic,  ///< points of meshes without normals
+    on          ///< all
+};
+
 /// Settings::sky_shadows: by a coarse grid.
 inline constexpr int kSkyShadowsAuto = 1;
 
@@ -52,8 +59,10 @@ struct Settings {
     /// from light to codes, for each sample, after exposure; pictures of floats and the background colour do without
     ToneCurve tone_curve = kDefaultToneCurve;
     ShadingSettings shading{};  ///< light and textures
-    float point_size = 2.0f;    ///< side of points, pixels, 1/16 to 256; rounded to 1/256
-    float line_width = 1.5f;    ///< width of lines, likewise
+    /// Size of points, pixels, 1/16 to 256; rounded to 1/256. From 3 on they are round, below that square. 0: the sizes that close the
+    /// surface that they lie on, by their distances in the picture: 2 at least, a 25th of the picture's shorter side at most.
+    float point_size = 2.0f;
+    float line_width = 1.5f;  ///< width of lines, likewise
     /// effect of shadows on wrapped light; off: no shadow maps are drawn
     ShadowMode shadows = ShadowMode::soft_split;
     /// Texels on a side of a shadow map, a multiple of 64 from 64 to 4096; a cube's faces have half. 0: three for two pixels of
@@ -74,6 +83,10 @@ struct Settings {
     /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1. There is
     /// none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below. 0: none.
     float contact_shadow = 0.0f;
+    /// Shading by the depths of the picture: a surface is darker where its neighbours are nearer to the viewer. Transparent surfaces count
+    /// as not there.
+    EyeDomeLighting edl = EyeDomeLighting::off;
+    float edl_strength = 1.0f;  ///< of that shading, 0 to 16
     /// Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide them, glass
     /// does not. A line that touches a surface is in front of it. Vertices at one position count as one, because files split vertices.
     EdgeChoice edges = EdgeChoice::none;
@@ -81,6 +94,7 @@ struct Settings {
     float edge_angle_deg = 30.0f;                  ///< between the normals of two triangles, from which on their edge is a line: 0 to 180
     float edge_width = 1.5f;                       ///< of the lines, pixels, 1/4 to 64; below 1 they are paler instead
     Vec3f edge_color_linear{0, 0, 0};              ///< of the lines, linear; no light, exposure or tone curve changes it
+    bool edge_contrast = false;                    ///< black lines on surfaces of dark materials are light grey instead
     /// transparent surfaces on each pixel, in the mean over all pixels of the picture (as of 2^18 if it has fewer), 1 to 2^20; more end the
     /// call with a limit's error: a small file can ask for millions. 0: no limit
     int max_layers = 128;

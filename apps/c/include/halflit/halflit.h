@@ -589,6 +589,8 @@ enum { HALFLIT_TONE_NONE = 0, HALFLIT_TONE_REINHARD = 1, HALFLIT_TONE_ACES = 2, 
 enum { HALFLIT_EDGES_NONE = 0, HALFLIT_EDGES_FEATURE = 1, HALFLIT_EDGES_SILHOUETTE = 2, HALFLIT_EDGES_ALL = 3 };
 enum { HALFLIT_ALPHA_SPACE_LINEAR = 0, HALFLIT_ALPHA_SPACE_DISPLAY = 1 };
 enum { HALFLIT_HIDDEN_EDGES_NONE = 0, HALFLIT_HIDDEN_EDGES_DASHED = 1 };
+/// Surfaces that eye-dome lighting shades: none; points of meshes without normals; all.
+enum { HALFLIT_EDL_OFF = 0, HALFLIT_EDL_AUTO = 1, HALFLIT_EDL_ON = 2 };
 
 /// A part of a picture, in pixels; width 0: all of it.
 typedef struct halflit_region {
@@ -620,7 +622,9 @@ typedef struct halflit_settings {
     /// HALFLIT_TONE: from light to codes, for each sample, after exposure; pictures of floats and the background colour do without
     /// (none)
     int32_t tone_curve;
-    /// side of points, pixels, 1/16 to 256; rounded to 1/256 (2)
+    /// Size of points, pixels, 1/16 to 256; rounded to 1/256. From 3 on they are round, below that square. 0: the sizes that close
+    /// the surface that they lie on, by their distances in the picture: 2 at least, a 25th of the picture's shorter side at most.
+    /// (2)
     float point_size;
     /// width of lines, likewise (1.5)
     float line_width;
@@ -682,7 +686,14 @@ typedef struct halflit_settings {
     /// by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide. Degrees, 0 to 10; 0: all
     /// edges are sharp. (0)
     float shadow_softness_deg;
-    int32_t reserved[2];  ///< 0
+    /// HALFLIT_EDL: Shading by the depths of the picture: a surface is darker where its neighbours are nearer to the viewer.
+    /// Transparent surfaces count as not there. (o)
+    int32_t edl;
+    /// of that shading, 0 to 16 (1)
+    float edl_strength;
+    /// black lines on surfaces of dark materials are light grey instead (0)
+    int32_t edge_contrast;
+    int32_t reserved[1];  ///< 0
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 /// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message
