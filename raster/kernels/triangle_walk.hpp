@@ -128,21 +128,27 @@ struct WriteCovered {
     }
 };
 
-/// Marks in the coverage plane the samples that pass the depth test.
-struct MarkCoverage {
-    const float* depth;
+/// Marks samples in the coverage plane.
+struct MarkSamples {
     std::uint16_t* coverage;
     std::uint16_t bit;
 
-    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
-        const M pass = less(I(-1), outside) & (z > load(depth + at));
-        std::uint32_t mask = mask_bits(pass);
+    HALFLIT_INLINE void mark(int at, M lanes) const {
+        std::uint32_t mask = mask_bits(lanes);
         while (mask != 0) {
             const int l = __builtin_ctz(mask);
             mask &= mask - 1;
             coverage[at + l] = static_cast<std::uint16_t>(coverage[at + l] | bit);
         }
     }
+};
+
+/// Those that pass the depth test.
+struct MarkCoverage {
+    const float* depth;
+    MarkSamples samples;
+
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const { samples.mark(at, less(I(-1), outside) & (z > load(depth + at))); }
 };
 
 /// The same, with the depths.
@@ -153,6 +159,17 @@ struct MarkLayer {
     /// Lanes outside are written too: they are right of the triangle's box, or not marked.
     HALFLIT_INLINE void pixels(int at, I outside, F z) const {
         mark.pixels(at, outside, z);
+        store(layer + at, z);
+    }
+};
+
+/// Without the test, with the depths.
+struct MarkAll {
+    MarkSamples samples;
+    float* layer;
+
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
+        samples.mark(at, less(I(-1), outside));
         store(layer + at, z);
     }
 };
