@@ -131,7 +131,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     report.ms.shadows = watch.lap();
 
     const Output output(target, plan.written, settings.alpha == AlphaSpace::display && !(plan.background_linear.w > 0.0f));
-    if (auto ok = geometry.make(scene, plan.picture, raster, executor, output.has_triangle()); !ok)
+    if (auto ok = geometry.make(scene, plan.picture, raster, executor, output.has_triangle() || !scene.coplanar().empty()); !ok)
         return tl::unexpected<Error>(ok.error());
     report.ms.cull = geometry.times_ms().cull;
     report.ms.transform = geometry.times_ms().transform;

@@ -93,8 +93,12 @@ constexpr SettingValues truth() { return named(kOffOn); }
 
 inline bool SettingValues::contains(double value) const {
     if ((zero_too && value == 0.0) || (!one.empty() && value == 1.0)) return true;
+    if (kind == Kind::number) {
+        // Numbers are kept as float, so the ends of the range are those that a float has.
+        const auto kept = static_cast<float>(value), least = static_cast<float>(low), most = static_cast<float>(high);
+        return kept >= least && kept <= most && !(open && kept == least);
+    }
     if (!(value >= low && value <= high) || (open && value == low)) return false;
-    if (kind == Kind::number) return true;
     constexpr double kAllWhole = 0x1p53;
     if (value < kAllWhole && value != static_cast<double>(static_cast<std::int64_t>(value))) return false;
     if (step > 0 && static_cast<std::int64_t>(value) % step != 0) return false;

@@ -167,11 +167,28 @@ private:
         const Ray ray = ray_to(camera_, story_.size, story_.position);
         const TriangleOfInstance self{story_.instance, story_.triangle};
         const double distance = dot(story_.position - ray.origin, ray.direction), slack = larger(1e-6 * absolute(distance), rounding());
-        Ray front = ray, rest = ray;
-        front.most = distance - slack;
-        rest.least = distance + slack;
+        Ray front = ray, rest = ray, here = ray;
+        front.most = here.least = distance - slack;
+        rest.least = here.most = distance + slack;
         story_.layers = hits_along(data(), front, RaySees::layers, kMostSurfaces, self);
         story_.behind = hits_along(data(), rest, RaySees::drawn, kMostSurfaces, self);
+        const CoplanarGroups& groups = data().coplanar();
+        const std::uint32_t group = groups.empty() ? 0 : groups.of(story_.instance, story_.triangle);
+        if (group == 0) return;
+        std::vector<SurfaceOnRay> plane = hits_along(data(), here, RaySees::drawn, kMostSurfaces, self);
+        std::erase_if(plane, [&](const SurfaceOnRay& hit) { return groups.of(hit.instance, hit.triangle) != group; });
+        // From the eye on: layers, the last one first, and what the surface hides.
+        std::sort(plane.begin(), plane.end(), [&](const SurfaceOnRay& a, const SurfaceOnRay& b) {
+            const auto order = [&](const SurfaceOnRay& hit) {
+                return std::pair(hit.layer, hit.layer ? hit.instance : std::size_t{groups.rank(data().material_of(hit.instance))});
+            };
+            return order(a) > order(b);
+        });
+        const auto hidden = std::find_if(plane.begin(), plane.end(), [](const SurfaceOnRay& hit) { return !hit.layer; });
+        story_.layers.insert(story_.layers.end(), plane.begin(), hidden);
+        story_.behind.insert(story_.behind.begin(), hidden, plane.end());
+        if (story_.layers.size() > kMostSurfaces) story_.layers.resize(kMostSurfaces);
+        if (story_.behind.size() > kMostSurfaces) story_.behind.resize(kMostSurfaces);
     }
 
     /// Bound on the rounding of the position to float32, world units: some units in the last place of the largest coordinate.

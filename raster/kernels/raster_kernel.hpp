@@ -28,6 +28,6 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 namespace halflit::raster {
 #define HALFLIT_RASTER_KERNELS HALFLIT_CONCAT(raster_kernels_, HALFLIT_ISA)
 extern const RasterKernels HALFLIT_RASTER_KERNELS;
-const RasterKernels HALFLIT_RASTER_KERNELS = {transform,   vertex_records, bin_triangles, rasterize,   rasterize_depth, cover,
-                                              cover_layer, draw_covered,   collect,       interpolate, distances};
+const RasterKernels HALFLIT_RASTER_KERNELS = {transform,   vertex_records, bin_triangles, rasterize, rasterize_depth, cover,
+                                              cover_layer, cover_all,      draw_covered,  collect,   interpolate,     distances};
 }  // namespace halflit::raster

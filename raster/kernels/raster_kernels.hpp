@@ -222,6 +222,9 @@ struct RasterKernels {
     /// The same in `part` of the tile alone, with the depths of the samples that it marks.
     CoverBox (*cover_layer)(const TileRect&, const TileRect& part, const SamplePattern&, TileBuffers&, LayerDepths&, const TriangleSource&,
                             std::uint32_t record);
+    /// The same of all samples that it covers, whatever the tile's depth.
+    CoverBox (*cover_all)(const TileRect&, const TileRect& part, const SamplePattern&, TileBuffers&, LayerDepths&, const TriangleSource&,
+                          std::uint32_t record);
     /// Draws one triangle into depth and triangle, but only the samples set in `coverage`: those that passed the alpha test.
     void (*draw_covered)(const TileRect&, const SamplePattern&, TileBuffers&, const TriangleSource&, std::uint32_t record);
     /// The fragments of `count` pixels, at most kPixelsARow. at: index of the first one in the buffers; x_px: its place in the picture.

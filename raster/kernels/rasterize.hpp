@@ -237,7 +237,7 @@ inline CoverBox cover(const TileRect& tile, const SamplePattern& pattern, TileBu
                       std::uint32_t record) {
     return draw_triangle(
         tile, tile, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
-            return MarkCoverage{buffers.depth[s], buffers.coverage, static_cast<std::uint16_t>(1u << s)};
+            return MarkCoverage{buffers.depth[s], {buffers.coverage, static_cast<std::uint16_t>(1u << s)}};
         });
 }
 
@@ -245,7 +245,15 @@ inline CoverBox cover_layer(const TileRect& tile, const TileRect& part, const Sa
                             LayerDepths& layer, const TriangleSource& source, std::uint32_t record) {
     return draw_triangle(
         tile, part, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
-            return MarkLayer{{buffers.depth[s], buffers.coverage, static_cast<std::uint16_t>(1u << s)}, layer.depth[s]};
+            return MarkLayer{{buffers.depth[s], {buffers.coverage, static_cast<std::uint16_t>(1u << s)}}, layer.depth[s]};
+        });
+}
+
+inline CoverBox cover_all(const TileRect& tile, const TileRect& part, const SamplePattern& pattern, TileBuffers& buffers,
+                          LayerDepths& layer, const TriangleSource& source, std::uint32_t record) {
+    return draw_triangle(
+        tile, part, pattern, source, source.records[record], [&](int s) __attribute__((always_inline)) {
+            return MarkAll{{buffers.coverage, static_cast<std::uint16_t>(1u << s)}, layer.depth[s]};
         });
 }
 

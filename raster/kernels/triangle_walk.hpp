@@ -128,21 +128,27 @@ struct WriteCovered {
     }
 };
 
-/// Marks in the coverage plane the samples that pass the depth test.
-struct MarkCoverage {
-    const float* depth;
+/// Marks samples in the coverage plane.
+struct MarkSamples {
     std::uint16_t* coverage;
     std::uint16_t bit;
 
-    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
-        const M pass = less(I(-1), outside) & (z > load(depth + at));
-        std::uint32_t mask = mask_bits(pass);
+    HALFLIT_INLINE void mark(int at, M lanes) const {
+        std::uint32_t mask = mask_bits(lanes);
         while (mask != 0) {
             const int l = __builtin_ctz(mask);
             mask &= mask - 1;
             coverage[at + l] = static_cast<std::uint16_t>(coverage[at + l] | bit);
         }
     }
+};
+
+/// Those that pass the depth test.
+struct MarkCoverage {
+    const float* depth;
+    MarkSamples samples;
+
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const { samples.mark(at, less(I(-1), outside) & (z > load(depth + at))); }
 };
 
 /// The same, with the depths.
@@ -178,6 +184,17 @@ HALFLIT_INLINE InCircle<Sink> in_circle(const Sink& sink, const TileRect& tile, 
     const int size = most_x - least_x, radius = size - size / 2;
     return {sink, 256 * tile.x + sample_x - (least_x + size / 2), 256 * tile.y + sample_y - (least_y + size / 2), radius * radius};
 }
+
+/// Without the test, with the depths.
+struct MarkAll {
+    MarkSamples samples;
+    float* layer;
+
+    HALFLIT_INLINE void pixels(int at, I outside, F z) const {
+        samples.mark(at, less(I(-1), outside));
+        store(layer + at, z);
+    }
+};
 
 /// Walks pixels [0, w) x [0, h) of a box with N crossing edges; `at` is the buffer index of its corner.
 template <int N, class Sink>

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <map>
 
 namespace halflit::raster {
 namespace {
@@ -22,6 +23,21 @@ constexpr std::uint64_t kUnitsAFragment = 100;  ///< of charge_work
 
 /// Orders layers from far to near, those of one depth by `order`. Depths are positive, so their bits have the order of their values.
 std::uint64_t layer_key(float z, std::uint32_t order) { return std::uint64_t{std::bit_cast<std::uint32_t>(z)} << 32 | order; }
+
+/// Depths of the layers of one sample, in submission order. Those in one plane have one depth, the first one's.
+class PlaneDepths {
+public:
+    explicit PlaneDepths(const ViewGeometry& geometry) : geometry_(geometry), has_planes_(geometry.has_coplanar()) {}
+    float depth_of(std::uint32_t id, float z) {
+        const std::uint32_t group = has_planes_ ? geometry_.coplanar_group_of(id) : 0;
+        return group == 0 ? z : first_.try_emplace(group, z).first->second;
+    }
+
+private:
+    const ViewGeometry& geometry_;
+    bool has_planes_;
+    std::map<std::uint32_t, float> first_;  ///< of each group
+};
 
 /// Calls visit(chunk, record) for the tile's transparent triangles in submission order, until it returns false. False: it did.
 template <class Visit>
@@ -108,8 +124,7 @@ bool PictureTile::collect_layers(const TileRect& part) {
     std::uint16_t* const coverage = scratch_.buffers.coverage;
     return for_each_layer(pass_.view, tile_, scratch_, [&](std::size_t chunk, std::uint32_t record) {
         const TriangleSource& source = pass_.view.geometry.source(chunk);
-        const CoverBox box =
-            pass_.view.raster.cover_layer(rect_, part, plan_.picture.samples, scratch_.buffers, layers.depths, source, record);
+        const CoverBox box = cover_layer(pass_.view, rect_, part, chunk, record, scratch_, layers.depths);
         for (int y = box.y0; y <= box.y1; ++y) {
             for (int x = box.x0; x <= box.x1; ++x) {
                 const int at = y * kTileStride + x;
@@ -206,9 +221,16 @@ void PictureTile::blend_pixels(const TileRect& part) {
 /// Nearly always all samples of a pixel see its layers in the same order. Then it is found once, and all samples are blended together.
 void PictureTile::blend_pixel(std::size_t at, std::span<const std::uint32_t> fragments) {
     LayerScratch& layers = *scratch_.layers;
-    const auto z_of = [&](std::uint32_t fragment, int sample) {
+    const auto z_of = [&](std::uint32_t fragment, int sample) -> float& {
         return layers.z[fragment * static_cast<std::size_t>(samples_) + static_cast<std::size_t>(sample)];
     };
+    if (pass_.view.geometry.has_coplanar())
+        for (int s = 0; s < samples_; ++s) {
+            PlaneDepths planes(pass_.view.geometry);
+            for (const std::uint32_t fragment : fragments)
+                if ((layers.fragments[fragment].samples >> s & 1u) != 0)
+                    z_of(fragment, s) = planes.depth_of(layers.fragments[fragment].id, z_of(fragment, s));
+        }
     layers.order.clear();
     for (const std::uint32_t fragment : fragments)
         layers.order.push_back(layer_key(z_of(fragment, std::countr_zero(unsigned{layers.fragments[fragment].samples})), fragment));
@@ -277,21 +299,22 @@ void PictureTile::blend_sample(int at, int sample) {
         kept.clear();
         std::uint64_t limit = layer_key(2.0f, 0);  // depths are at most 1
         std::uint32_t order = 0;
+        PlaneDepths planes(pass_.view.geometry);
         for_each_layer(pass_.view, tile_, scratch_, [&](std::size_t chunk, std::uint32_t record) {
             ++order;
             const TriangleSource& source = pass_.view.geometry.source(chunk);
-            const CoverBox box =
-                pass_.view.raster.cover_layer(rect_, pixel, plan_.picture.samples, scratch_.buffers, layers.depths, source, record);
+            const CoverBox box = cover_layer(pass_.view, rect_, pixel, chunk, record, scratch_, layers.depths);
             const bool covers = (scratch_.buffers.coverage[at] >> sample & 1u) != 0;
             clear_coverage(scratch_, box);
             if (!covers) return true;
-            const std::uint64_t key = layer_key(layers.depths.depth[sample][at], order);
+            const std::uint32_t id = source.id_base + record;
+            const std::uint64_t key = layer_key(planes.depth_of(id, layers.depths.depth[sample][at]), order);
             if (key <= done) return true;
             if (key >= limit) {
                 all = false;
                 return true;
             }
-            kept.push_back({key, source.id_base + record});
+            kept.push_back({key, id});
             if (kept.size() == kMostFragments) {
                 // The nearer half waits for the next turn.
                 const auto middle = kept.begin() + static_cast<std::ptrdiff_t>(kMostFragments / 2);

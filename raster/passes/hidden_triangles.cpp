@@ -2,7 +2,7 @@
 //
 // A sample shows the nearest opaque triangle, and of equal depths the first. So a triangle that loses against others of the view is not
 // missed when more are added, and what is drawn at the end is the same. Triangles of layers and masks hide nothing here; they are dropped
-// where opaque ones hide them wholly.
+// where opaque ones hide them wholly. Members of coplanar groups stay: what others of their plane show decides about them.
 #include "raster/passes/tile.hpp"
 #include "raster/passes/used_vertices.hpp"
 #include "raster/passes/view_geometry.hpp"
@@ -56,6 +56,10 @@ void mark_shown(const ViewGeometry& geometry, const RasterKernels& kernels, Stop
                 const std::size_t chunk = geometry.chunk_of(id);
                 mark(shown[chunk][id - geometry.source(chunk).id_base]);
             }
+    if (geometry.has_coplanar())
+        for (std::size_t c = 0; c < geometry.chunks().size(); ++c)
+            for (const std::uint32_t record : geometry.tile_list(c, tile, scratch.tile_list))
+                if (geometry.coplanar_group_of(geometry.source(c).id_base + record) != 0) mark(shown[c][record]);
     if (!geometry.has(AlphaMode::mask) && !geometry.has(AlphaMode::blend)) return;
     move_back(rect, samples.count, scratch.buffers);
     for (std::size_t c = 0; c < geometry.chunks().size(); ++c) {

@@ -106,6 +106,7 @@ struct TileScratch {
     SurfacePairs pairs;
     std::unique_ptr<CellScratch> cells;    ///< where light in cells is used
     std::unique_ptr<LayerScratch> layers;  ///< where there are transparent triangles
+    std::unique_ptr<LayerDepths> depths;   ///< where there are surfaces in one plane
     /// Linear light times alpha, and alpha, of every sample; used only where samples or layers are combined.
     RawBuffer<float> color;
     RawBuffer<float> backing;  ///< share of the background colour in every sample; used only with a tone curve
@@ -134,13 +135,20 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
 /// The same of opaque triangles alone, which needs no vertex records.
 void draw_opaque(const ViewGeometry& geometry, const RasterKernels& kernels, StopSignal& stop, int tile, TileScratch& scratch);
 
-/// Collects the samples of one triangle that are nearer than the tile's depth, as lists of fragments, and calls flush(list) for each list.
-/// The caller must call clear_coverage with the returned box when it is done with the triangle.
+/// After it, where there are surfaces in one plane: gives their samples to the material of the highest rank.
+void draw_coplanar(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts);
+/// RasterKernels::cover_layer for a triangle of a layer. What is in one plane with the surface that a sample shows lies over it.
+CoverBox cover_layer(const TilePass& pass, const TileRect& rect, const TileRect& part, std::size_t chunk, std::uint32_t record,
+                     TileScratch& scratch, LayerDepths& depths);
+/// Takes the samples off the coverage plane, in a box, that fail the alpha test of a triangle. True if some are left.
+bool test_mask(const TilePass& pass, const TileRect& rect, const CoverBox& box, std::size_t chunk, std::uint32_t record,
+               TileScratch& scratch, TileCounts& counts);
+
+/// Collects the samples of one triangle in the coverage plane, in a box, as lists of fragments, and calls flush(list) for each list.
 template <class Flush>
-CoverBox collect_covered(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
-                         const Flush& flush) {
+void collect_covered(const TilePass& pass, const TileRect& rect, const CoverBox& box, std::size_t chunk, std::uint32_t record,
+                     TileScratch& scratch, const Flush& flush) {
     const TriangleSource& source = pass.geometry.source(chunk);
-    const CoverBox box = pass.raster.cover(rect, pass.geometry.view().samples, scratch.buffers, source, record);
     FragmentList& list = scratch.list;
     list.material = pass.geometry.draw_of(source.records[record]).material;
     list.count = 0;
@@ -155,7 +163,6 @@ CoverBox collect_covered(const TilePass& pass, const TileRect& rect, std::size_t
         }
     }
     if (list.count > 0) flush(list);
-    return box;
 }
 void clear_coverage(TileScratch& scratch, const CoverBox& box);
 

@@ -114,7 +114,7 @@ struct TrianglePoint {
 class ViewGeometry {
 public:
     /// Runs the passes, unless scene and view are those of the last call. Fails if there are more vertices or triangles than can be
-    /// numbered. numbered: keep each record's submission number, for triangle_of().
+    /// numbered. numbered: keep each record's submission number, for triangle_of() and has_coplanar().
     Result<void> make(const PreparedData& scene, const View& view, const RasterKernels& kernels, Executor& executor, bool numbered = false);
     /// Makes the next make() run the passes.
     void forget() { revision_ = {}; }
@@ -135,6 +135,13 @@ public:
     [[nodiscard]] std::span<const std::unique_ptr<Chunk>> chunks() const { return std::span(chunks_).first(chunk_count_); }
     /// True if some draw's mesh has fewer than 1.5 vertices a triangle.
     [[nodiscard]] bool few_vertices() const { return few_vertices_; }
+    /// True if surfaces in one plane are ordered by their materials. Only if `numbered`.
+    [[nodiscard]] bool has_coplanar() const { return numbered_ && !scene_->coplanar().empty(); }
+    /// CoplanarGroups::of a triangle. Requires: has_coplanar().
+    [[nodiscard]] std::uint32_t coplanar_group_of(std::uint32_t id) const {
+        const Draw& draw = draw_of(record(id));
+        return scene_->coplanar().of(draw.instance, triangle_of(id, draw));
+    }
     [[nodiscard]] bool has(AlphaMode mode) const { return has_mode_[static_cast<std::size_t>(mode)]; }
     /// A chunk's triangles as the kernels read them.
     [[nodiscard]] const TriangleSource& source(std::size_t chunk) const { return sources_[chunk]; }

@@ -156,31 +156,6 @@ bool test_samples(const TilePass& pass, const shading::MaterialPlan& material, c
     return left != 0;
 }
 
-/// Draws one triangle of a masked material: the samples that pass its alpha test.
-void draw_masked(const TilePass& pass, const TileRect& rect, std::size_t chunk, std::uint32_t record, TileScratch& scratch,
-                 TileCounts& counts) {
-    bool any = false;
-    const CoverBox box = collect_covered(pass, rect, chunk, record, scratch, [&](FragmentList& list) {
-        const shading::MaterialPlan& material = pass.materials[static_cast<std::size_t>(list.material)];
-        const bool of_samples = tests_samples(pass, material);
-        interpolate(pass, list, scratch.block, of_samples);
-        count_alpha_test(counts.work, material, list.count);
-        if (of_samples) {
-            any |= test_samples(pass, material, rect, list, scratch);
-            return;
-        }
-        pass.shade.alpha(material, scratch.block, list.count);
-        for (int l = 0; l < list.count; ++l) {
-            if (scratch.block.alpha[l] >= material.alpha_cutoff)
-                any = true;
-            else
-                scratch.buffers.coverage[(list.y_px[l] - rect.y) * kTileStride + (list.x_px[l] - rect.x)] = 0;
-        }
-    });
-    if (any) pass.raster.draw_covered(rect, pass.geometry.view().samples, scratch.buffers, pass.geometry.source(chunk), record);
-    clear_coverage(scratch, box);
-}
-
 }  // namespace
 
 void interpolate(const TilePass& pass, FragmentList& list, shading::FragmentBlock& block, bool gradients) {
@@ -213,6 +188,29 @@ void clear_coverage(TileScratch& scratch, const CoverBox& box) {
                     sizeof(scratch.buffers.coverage[0]) * static_cast<std::size_t>(box.x1 - box.x0 + 1));
 }
 
+bool test_mask(const TilePass& pass, const TileRect& rect, const CoverBox& box, std::size_t chunk, std::uint32_t record,
+               TileScratch& scratch, TileCounts& counts) {
+    bool any = false;
+    collect_covered(pass, rect, box, chunk, record, scratch, [&](FragmentList& list) {
+        const shading::MaterialPlan& material = pass.materials[static_cast<std::size_t>(list.material)];
+        const bool of_samples = tests_samples(pass, material);
+        interpolate(pass, list, scratch.block, of_samples);
+        count_alpha_test(counts.work, material, list.count);
+        if (of_samples) {
+            any |= test_samples(pass, material, rect, list, scratch);
+            return;
+        }
+        pass.shade.alpha(material, scratch.block, list.count);
+        for (int l = 0; l < list.count; ++l) {
+            if (scratch.block.alpha[l] >= material.alpha_cutoff)
+                any = true;
+            else
+                scratch.buffers.coverage[(list.y_px[l] - rect.y) * kTileStride + (list.x_px[l] - rect.x)] = 0;
+        }
+    });
+    return any;
+}
+
 void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts) {
     const ViewGeometry& geometry = pass.geometry;
     const TileRect rect = geometry.view().tile_rect(tile);
@@ -226,10 +224,14 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
             if (geometry.draw_of(source.records[record]).alpha_mode != AlphaMode::mask) return;
             opaque.draw();
             pass.stop.check();
-            draw_masked(pass, rect, c, record, scratch, counts);
+            const CoverBox box = pass.raster.cover(rect, geometry.view().samples, scratch.buffers, source, record);
+            if (test_mask(pass, rect, box, c, record, scratch, counts))
+                pass.raster.draw_covered(rect, geometry.view().samples, scratch.buffers, source, record);
+            clear_coverage(scratch, box);
         });
     }
     opaque.draw();
+    if (geometry.has_coplanar() && !pass.depth_only) draw_coplanar(pass, tile, scratch, counts);
 }
 
 void draw_opaque(const ViewGeometry& geometry, const RasterKernels& kernels, StopSignal& stop, int tile, TileScratch& scratch) {

@@ -1,6 +1,7 @@
 #include "raster/scene/flat_faces.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/prepared_mesh.hpp"
 #include "sh/time_limit.hpp"
 
 #include <algorithm>
@@ -37,29 +38,42 @@ struct Triangle {
 
 float face_slack(const Bounds& bounds) { return 4e-6f * static_cast<float>(largest_coordinate(bounds)); }
 
-FlatFaces find_flat_faces(const Mesh& mesh) {
+FlatFaces find_flat_faces(const Mesh& mesh, std::span<const Cluster> clusters) {
     FlatFaces out;
     TimeCheck check;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        check();
-        const Triangle triangle(mesh, i);
-        if (triangle.is_finite && triangle.flat_axis() >= 0) triangle.add_to(out.flats);
-    }
+    const auto for_each = [&](std::size_t cluster, const auto& visit) {
+        const auto [begin, end] = indices_of_cluster(mesh, cluster);
+        for (std::size_t i = begin; i < end; i += 3) {
+            check();
+            if (const Triangle triangle(mesh, i); triangle.is_finite) visit(triangle);
+        }
+    };
+    const auto may_be_flat = [&](std::size_t cluster) { return clusters[cluster].flat || !clusters[cluster].finite; };
+    for (std::size_t c = 0; c < clusters.size(); ++c)
+        if (may_be_flat(c))
+            for_each(c, [&](const Triangle& triangle) {
+                if (triangle.flat_axis() >= 0) triangle.add_to(out.flats);
+            });
     if (out.flats.empty) return out;
     const float slack = face_slack(out.flats);
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        check();
-        const Triangle triangle(mesh, i);
-        if (!triangle.is_finite) continue;
-        const int axis = triangle.flat_axis();
-        Bounds* group = &out.rest;
-        if (axis >= 0) {
-            if (component(triangle.low, axis) <= component(out.flats.min, axis) + slack)
-                group = &out.faces[face_of(axis, false)];
-            else if (component(triangle.high, axis) >= component(out.flats.max, axis) - slack)
-                group = &out.faces[face_of(axis, true)];
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+        if (!may_be_flat(c)) {
+            const Cluster& cluster = clusters[c];
+            out.rest.add({cluster.min[0], cluster.min[1], cluster.min[2]});
+            out.rest.add({cluster.max[0], cluster.max[1], cluster.max[2]});
+            continue;
         }
-        triangle.add_to(*group);
+        for_each(c, [&](const Triangle& triangle) {
+            const int axis = triangle.flat_axis();
+            Bounds* group = &out.rest;
+            if (axis >= 0) {
+                if (component(triangle.low, axis) <= component(out.flats.min, axis) + slack)
+                    group = &out.faces[face_of(axis, false)];
+                else if (component(triangle.high, axis) >= component(out.flats.max, axis) - slack)
+                    group = &out.faces[face_of(axis, true)];
+            }
+            triangle.add_to(*group);
+        });
     }
     return out;
 }

@@ -3,7 +3,11 @@
 
 #include "halflit/mesh.hpp"
 
+#include <span>
+
 namespace halflit::raster {
+
+struct Cluster;
 
 /// Object space. A triangle is flat if it lies in a plane x, y or z = constant, but for 1e-6 of its size.
 struct FlatFaces {
@@ -21,7 +25,7 @@ struct FlatFaces {
 /// model.
 [[nodiscard]] float face_slack(const Bounds& bounds);
 
-/// Triangles with a vertex that is not finite are left out. Requires: indices in range.
-[[nodiscard]] FlatFaces find_flat_faces(const Mesh& mesh);
+/// Triangles with a vertex that is not finite are left out. Requires: indices in range. clusters: the mesh's.
+[[nodiscard]] FlatFaces find_flat_faces(const Mesh& mesh, std::span<const Cluster> clusters);
 
 }  // namespace halflit::raster

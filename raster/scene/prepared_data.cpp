@@ -185,6 +185,17 @@ void PreparedData::collect() {
     }
 }
 
+void PreparedData::find_coplanar(std::span<const std::uint8_t> moved) {
+    std::vector<CoplanarPair> found = find_coplanar_pairs(*this, moved);
+    std::erase_if(coplanar_pairs_, [&](const CoplanarPair& pair) {
+        return moved.empty() || moved[pair.first.instance] != 0 || moved[pair.second.instance] != 0;
+    });
+    if (found.empty() && coplanar_pairs_.empty() && coplanar_.empty()) return;
+    coplanar_pairs_.insert(coplanar_pairs_.end(), found.begin(), found.end());
+    std::sort(coplanar_pairs_.begin(), coplanar_pairs_.end());
+    coplanar_ = CoplanarGroups(*this, coplanar_pairs_);
+}
+
 Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& execution) {
     return guarded("preparing a scene", execution, [&]() -> Result<PreparedData> {
         const WorkLimit work(scene.frame_work);
@@ -209,6 +220,7 @@ Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& exe
         prepared.collect();
         prepared.shadow_casters_ = collect_shadow_casters(scene, prepared.meshes_, prepared.instance_bounds_);
         prepared.note_coverage();
+        prepared.find_coplanar({});
         prepared.revision_ = all_new_revisions();
         return prepared;
     });
@@ -273,6 +285,7 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
     if (deformed || pending_.materials)
         if (auto ok = check_materials(); !ok) return ok;
     const auto looks_before = look_keys_;
+    const auto coverage_before = coverage_;
     if (deformed || pending_.materials || !pending_.changed_instances.empty()) find_looks();
     const bool other_looks = look_keys_ != looks_before;
     if (deformed || other_looks || !pending_.changed_instances.empty()) {
@@ -286,6 +299,16 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
     }
     if (deformed || pending_.materials || !pending_.changed_instances.empty())
         shadow_casters_ = collect_shadow_casters(scene, meshes_, instance_bounds_);
+    if (other_looks || coverage_ != coverage_before) {
+        find_coplanar({});
+    } else if (deformed || !pending_.changed_instances.empty()) {
+        std::vector<std::uint8_t> moved(scene.instances.size());
+        for (const std::size_t i : pending_.changed_instances) moved[i] = 1;
+        for (std::size_t i = 0; deformed && i < moved.size(); ++i)
+            moved[i] |= std::binary_search(pending_.deformed_meshes.begin(), pending_.deformed_meshes.end(),
+                                           static_cast<std::size_t>(scene.instances[i].mesh));
+        find_coplanar(moved);
+    }
     if (pending_.lights) revision_.lights = next_revision();
     return {};
 }

@@ -4,6 +4,7 @@
 #include "halflit/error.hpp"
 #include "halflit/prepared_scene.hpp"
 #include "halflit/scene.hpp"
+#include "raster/scene/coplanar.hpp"
 #include "raster/scene/prepared_mesh.hpp"
 #include "raster/scene/shadow_casters.hpp"
 #include "shading/fragment_block.hpp"
@@ -49,6 +50,7 @@ public:
     /// World-space box of each instance.
     [[nodiscard]] std::span<const Bounds> instance_bounds() const { return instance_bounds_; }
     [[nodiscard]] const ShadowCasters& shadow_casters() const { return shadow_casters_; }
+    [[nodiscard]] const CoplanarGroups& coplanar() const { return coplanar_; }
     /// Number of triangles over all instances.
     [[nodiscard]] std::uint64_t triangle_count() const { return triangle_count_; }
     /// The largest magnitude of a texture coordinate, and the largest channel of a vertex colour (at least 1), of what is drawn.
@@ -87,6 +89,8 @@ private:
     Result<void> apply_pending(const Execution& execution);
     void collect();     ///< sums over meshes and instances
     void find_looks();  ///< materials of instances that have a colour
+    /// moved: instances whose pairs are searched anew; empty: all.
+    void find_coplanar(std::span<const std::uint8_t> moved);
     [[nodiscard]] std::size_t material_count() const { return scene_->materials.size() + 1 + looks_.size(); }
     [[nodiscard]] std::size_t material_index_of(const Instance& instance) const;
 
@@ -99,6 +103,8 @@ private:
     Bounds framed_bounds_;
     Bounds bounds_;
     ShadowCasters shadow_casters_;
+    std::vector<CoplanarPair> coplanar_pairs_;
+    CoplanarGroups coplanar_;
     std::uint64_t triangle_count_ = 0;
     double largest_uv_ = 0, largest_color_ = 1;
     std::vector<double> object_radii_;

@@ -48,6 +48,48 @@ void measure(const Corners& at, std::uint32_t count, Shapes& out) {
     }
 }
 
+bool all_finite(const Corners& at, std::uint32_t count) {
+    std::int32_t odd = 0;
+    for (const auto* const axis : {&at.x, &at.y, &at.z})
+        for (const auto& corner : *axis)
+            for (std::uint32_t i = 0; i < count; ++i) odd |= static_cast<std::int32_t>(!(corner[i] - corner[i] == 0.0f));
+    return odd == 0;
+}
+
+/// True if a triangle is flat as FlatFaces has it.
+bool has_flat(const Corners& at, std::uint32_t count) {
+    std::int32_t flat = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        float extent[3];
+        const float(*const axes[3])[kClusterTriangles] = {at.x, at.y, at.z};
+        for (int k = 0; k < 3; ++k) {
+            const float a = axes[k][0][i], b = axes[k][1][i], c = axes[k][2][i];
+            const float low = a < b ? a : b, high = a < b ? b : a;
+            extent[k] = (high < c ? c : high) - (c < low ? c : low);
+        }
+        float size = extent[0] < extent[1] ? extent[1] : extent[0];
+        size = 1e-6f * (size < extent[2] ? extent[2] : size);
+        flat |= static_cast<std::int32_t>(extent[0] <= size) | static_cast<std::int32_t>(extent[1] <= size) |
+                static_cast<std::int32_t>(extent[2] <= size);
+    }
+    return flat != 0;
+}
+
+/// The box of finite corners; count > 0. As Bounds::add has it.
+Bounds box_of(const Corners& at, std::uint32_t count) {
+    Bounds box;
+    box.add({at.x[0][0], at.y[0][0], at.z[0][0]});
+    Vec3f low = box.min, high = box.max;
+    for (int k = 0; k < 3; ++k)
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const float x = at.x[k][i], y = at.y[k][i], z = at.z[k][i];
+            low = {x < low.x ? x : low.x, y < low.y ? y : low.y, z < low.z ? z : low.z};
+            high = {x > high.x ? x : high.x, y > high.y ? y : high.y, z > high.z ? z : high.z};
+        }
+    box.min = low, box.max = high;
+    return box;
+}
+
 /// Sets the cone around the mean normal, and the least altitude.
 void set_cone(const Shapes& shapes, std::uint32_t count, Cluster& cluster) {
     cluster.cone_sine = 2.0f;
@@ -106,22 +148,25 @@ private:
         const auto mark = static_cast<std::uint32_t>(number + 1);
         cluster.first_group = static_cast<std::uint32_t>(groups_.size());
         Bounds box;
-        cluster.finite = true;
         for (std::uint32_t i = 0; i < count; ++i) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t v = index[3 * i + k];
                 const Vec3f p = mesh_.positions[v];
                 corners_.x[k][i] = p.x, corners_.y[k][i] = p.y, corners_.z[k][i] = p.z;
-                box.add(p);
-                cluster.finite &= finite(p);
                 if (stamp_[v / kVertexGroup] == mark) continue;
                 stamp_[v / kVertexGroup] = mark;
                 groups_.push_back(v / kVertexGroup);
             }
         }
+        cluster.finite = all_finite(corners_, count);
+        if (cluster.finite && count > 0)
+            box = box_of(corners_, count);
+        else
+            for (std::size_t i = first; i < last; ++i) box.add(mesh_.positions[mesh_.indices[i]]);
         if (box.empty) box.min = {1, 1, 1}, box.max = {-1, -1, -1};
         cluster.min[0] = box.min.x, cluster.min[1] = box.min.y, cluster.min[2] = box.min.z;
         cluster.max[0] = box.max.x, cluster.max[1] = box.max.y, cluster.max[2] = box.max.z;
+        cluster.flat = has_flat(corners_, count);
         measure(corners_, count, shapes_);
         set_cone(shapes_, count, cluster);
         return true;
@@ -275,7 +320,7 @@ Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
     prepared.clusters[count] = {};
     prepared.clusters[count].first_group = static_cast<std::uint32_t>(prepared.vertex_groups.size());
     sum_up_clusters(prepared);
-    prepared.faces = find_flat_faces(mesh);
+    prepared.faces = find_flat_faces(mesh, std::span(prepared.clusters).first(count));
     prepared.few_vertices = 2 * mesh.positions.size() < mesh.indices.size();
     return prepared;
 }

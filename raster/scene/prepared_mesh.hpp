@@ -38,6 +38,7 @@ struct Cluster {
     float least_altitude;
     std::uint32_t first_group;  ///< index into PreparedMesh::vertex_groups; the next cluster's is the end
     bool finite;                ///< every vertex is finite
+    bool flat;                  ///< a triangle lies across an axis (FlatFaces)
 };
 
 /// Clusters per supercluster: searches test the box of a supercluster before those of its clusters.

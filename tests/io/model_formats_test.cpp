@@ -5,6 +5,7 @@
 #include "halflit/auto_setup.hpp"
 #include "halflit/renderer.hpp"
 
+#include "sh/trig.hpp"
 #include "tests/support/catch.hpp"
 
 #include <array>
@@ -165,6 +166,29 @@ TEST_CASE("models: edges above the crease angle are sharp", "[io]") {
     }
 }
 
+TEST_CASE("models: all edges of a prism whose sides meet at the crease angle are smooth", "[io]") {
+    for (const unsigned sides : {6u, 8u, 12u, 15u}) {
+        for (const float size : {0.01f, 1.0f, 77.7f}) {
+            Polyhedron prism;
+            for (unsigned i = 0; i < sides; ++i) {
+                const SinCos at = sin_cos((2.0 * kPi * i) / sides);
+                for (const float y : {0.0f, 1.0f})
+                    prism.points.push_back({static_cast<float>(size * at.cos), y * size, static_cast<float>(size * at.sin)});
+            }
+            for (unsigned i = 0; i < sides; ++i) {
+                const unsigned a = 2 * i, b = 2 * ((i + 1) % sides);
+                prism.triangles.push_back({a, a + 1, b + 1});
+                prism.triangles.push_back({a, b + 1, b});
+            }
+            LoadOptions options;
+            options.crease_deg = 360.0f / static_cast<float>(sides);
+            CHECK(load_any_ok(stl_binary_of(prism, ""), options).scene.meshes.at(0).positions.size() == prism.points.size());
+            options.crease_deg -= 1;
+            CHECK(load_any_ok(stl_binary_of(prism, ""), options).scene.meshes.at(0).positions.size() == 2 * prism.points.size());
+        }
+    }
+}
+
 TEST_CASE("models: noise of a scan is smooth beyond the crease angle, and dense patterns keep their edges", "[io]") {
     const auto vertices_a_place = [](const Polyhedron& p, float crease_deg) {
         LoadOptions options;
@@ -203,6 +227,49 @@ TEST_CASE("models: noise of a scan is smooth beyond the crease angle, and dense 
     };
     CHECK(vertices_a_place(knurl(60, 50), 30) == Approx(vertices_a_place(knurl(40, 30), 30)).epsilon(0.02));
     CHECK(vertices_a_place(knurl(60, 50), 30) > 5);
+}
+
+TEST_CASE("models: the faces of a twisted vase are smooth and its ridges sharp, however its strips bend", "[io]") {
+    constexpr unsigned kSides = 12, kLayers = 60;
+    for (const double twist_deg : {1.0, 2.0, 3.0}) {  // of a layer
+        Polyhedron vase;
+        for (unsigned layer = 0; layer <= kLayers; ++layer)
+            for (unsigned side = 0; side < kSides; ++side) {
+                const SinCos at = sin_cos((2.0 * kPi * side) / kSides + twist_deg * layer * (kPi / 180.0));
+                vase.points.push_back({static_cast<float>(10 * at.cos), static_cast<float>(10 * at.sin), 0.5f * static_cast<float>(layer)});
+            }
+        for (unsigned layer = 0; layer < kLayers; ++layer)
+            for (unsigned side = 0; side < kSides; ++side) {
+                const unsigned a = layer * kSides + side, b = layer * kSides + (side + 1) % kSides;
+                vase.triangles.push_back({a, b, b + kSides});
+                vase.triangles.push_back({a, b + kSides, a + kSides});
+            }
+        const Vec3f* const p = vase.points.data();
+        const auto normal = [&](unsigned a, unsigned b, unsigned c) { return normalize_or(cross(p[b] - p[a], p[c] - p[a]), {0, 0, 1}); };
+        const float within = dot(normal(0, 1, 1 + kSides), normal(0, 1 + kSides, kSides));
+        LoadOptions options;
+        options.crease_deg = 20;  // below the ridges' 30 degrees
+        const Mesh mesh = load_any_ok(stl_binary_of(vase, ""), options).scene.meshes.at(0);
+        INFO("twist " << twist_deg << ", cosine of the bend within a face " << within);
+        CHECK((within < 0.94f) == (twist_deg > 1));  // 20 degrees
+        CHECK(mesh.positions.size() == 2 * vase.points.size());
+        options.crease_deg = 15;
+        const bool too_sharp = within < 0.866f;  // 30 degrees
+        CHECK((load_any_ok(stl_binary_of(vase, ""), options).scene.meshes.at(0).positions.size() > 3 * vase.points.size()) == too_sharp);
+    }
+}
+
+TEST_CASE("models: the pleats of a fan are sharp", "[io]") {
+    constexpr unsigned kPleats = 60;
+    Polyhedron fan;
+    fan.points.push_back({0, 0, 0});
+    for (unsigned i = 0; i < 2 * kPleats; ++i) {
+        const SinCos at = sin_cos(kPi * i / kPleats);
+        fan.points.push_back({static_cast<float>(10 * at.cos), static_cast<float>(10 * at.sin), i % 2 == 0 ? 0.1f : -0.1f});
+    }
+    for (unsigned i = 0; i < 2 * kPleats; ++i) fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % (2 * kPleats)});
+    const Mesh mesh = load_any_ok(stl_binary_of(fan, "")).scene.meshes.at(0);
+    CHECK(mesh.positions.size() == 3 * fan.triangles.size());
 }
 
 TEST_CASE("models: smoothing groups of OBJ come before the crease angle", "[io]") {

@@ -53,7 +53,7 @@ void add_vertices(Scene& scene) {
     scene.instances = std::move(instances);
 }
 
-/// Balls of 5,000 triangles each among the others, some of them masks and layers.
+/// Balls of 5,000 triangles each among the others, some of them masks and layers, some twice in one place.
 void add_balls(Random& random, Scene& scene, int count) {
     const int mesh = static_cast<int>(scene.meshes.size());
     scene.meshes.push_back(make_sphere_of(1.0f, 5'000));
@@ -62,6 +62,9 @@ void add_balls(Random& random, Scene& scene, int count) {
         place.c[3] = {random.real32(-0.5, 0.5), random.real32(-0.5, 0.5), random.real32(-0.5, 0.5), 1};
         scene.instances.push_back({mesh, place});
         scene.instances.back().material = i % 8 < 6 ? 0 : random.index(static_cast<int>(scene.materials.size()));
+        if (i % 100 != 0) continue;
+        scene.instances.push_back(scene.instances.back());
+        scene.instances.back().material = 1;
     }
 }
 

@@ -1,11 +1,13 @@
 // Settings that a frame refuses, their error codes, and the ways to stop a frame.
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/settings_table.hpp"
 #include "tests/support/cameras.hpp"
 
 #include "tests/support/catch.hpp"
 
 #include <atomic>
+#include <cmath>
 #include <limits>
 
 using namespace halflit;
@@ -191,4 +193,20 @@ TEST_CASE("settings: values that no name stands for are usage errors", "[raster]
     CHECK(refused_with([](Settings& s) { s.shading.accuracy = static_cast<Accuracy>(255); }));
     CHECK(refused_with([](Settings& s) { s.shading.texture_detail = static_cast<TextureDetail>(3); }));
     CHECK(refused_with([](Settings& s) { s.shadows = static_cast<ShadowMode>(3); }));
+}
+
+TEST_CASE("settings: the ends of each range, as a float has them, are in it", "[raster][settings]") {
+    int rows = 0;
+    for (const Setting& setting : kSettings) {
+        if (setting.values.kind != SettingValues::Kind::number) continue;
+        INFO(setting.name);
+        const auto low = static_cast<float>(setting.values.low), high = static_cast<float>(setting.values.high);
+        CHECK(setting.values.contains(double{high}));
+        CHECK(setting.values.contains(double{low}) == (!setting.values.open || setting.values.zero_too));
+        CHECK_FALSE(setting.values.contains(double{std::nextafter(low, -kInf)}));
+        if (high < kInf) CHECK_FALSE(setting.values.contains(double{std::nextafter(high, kInf)}));
+        CHECK_FALSE(setting.values.contains(double{kNan}));
+        ++rows;
+    }
+    CHECK(rows > 5);
 }

@@ -40,24 +40,70 @@ constexpr double kFlatBend = 1.0 * (kPi / 180), kUsualBend = 20.0 * (kPi / 180),
 constexpr double kStandsOut = 3.0, kMostWidened = 2.0;
 constexpr std::size_t kFewEdges = 5;  // of a place, below which none stands out
 
+/// Rounding of positions turns the edges of a prism of twelve sides, which are all as sharp as the usual crease, by less than this.
+constexpr double kAngleSlack = 0.25 * (kPi / 180);
+
+/// A triangle is a strip's if two of its corners are so much nearer to each other than to the third, its tip, and if the triangles beside
+/// it have no tip there. A strip that fills a twisted face bends to and fro at its edges, as its triangles follow one boundary and the
+/// other in turn. These bends are smooth up to kMostWidened times a crease if both of a triangle's are alike.
+constexpr double kSlender = 0.25, kLeastAngleBeside = 0.5;  // rad
+constexpr double kAlike = 0.5;
+
 constexpr std::uint32_t following(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 /// Makes the normals of one place after the other. All edges that matter to a place begin or end there.
 class NormalMaker {
 public:
     /// normals: those that are made; the first one has the number `first`.
-    NormalMaker(Soup& soup, double crease_deg, bool is_scan, std::vector<Vec3f>& normals, std::uint32_t first)
+    /// to_and_fro: for each corner, not 0 where the edge from it to the next one is one of a strip that bends to and fro; or empty.
+    NormalMaker(Soup& soup, double crease_deg, bool is_scan, std::span<const std::uint8_t> to_and_fro, std::vector<Vec3f>& normals,
+                std::uint32_t first)
         : soup_(soup),
+          to_and_fro_(to_and_fro),
           normals_(normals),
           first_(first),
           crease_rad_(crease_deg * (kPi / 180)),
-          least_cosine_(sin_cos(crease_rad_).cos),
+          least_cosine_(sin_cos(crease_rad_ > 0 ? std::min(crease_rad_ + kAngleSlack, kPi) : 0.0).cos),
           is_scan_(is_scan) {}
 
     /// Adds the angles between the triangles of the edges of a place.
     void add_bends(std::span<const std::uint32_t> corners, std::vector<double>& bends) {
         gather(corners);
         each_bend([&](double sine, double cosine) { bends.push_back(angle_of(sine, cosine)); });
+    }
+
+    /// Marks the edges of strips at a place where the tips of some lie.
+    void mark_strips(std::span<const std::uint32_t> corners, std::vector<std::uint8_t>& marks) {
+        gather(corners);
+        bend_of_.assign(2 * wedges_.size(), 0.0);
+        beside_.assign(2 * wedges_.size(), kNone);
+        for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) {
+            const Edge &a = edges_[i], &b = edges_[end_of(i) - 1];
+            if (end_of(i) != i + 2 || a.leaves == b.leaves) continue;
+            const Vec3d &x = wedges_[a.wedge].normal, &y = wedges_[b.wedge].normal;
+            const std::uint32_t corner = corners[a.wedge], other = a.leaves ? following(corner) : following(following(corner));
+            const Vec3d turn = cross(x, y), along = (at(other) - at(corner)) * (a.leaves ? 1.0 : -1.0);
+            const double bend = angle_of(length(turn), dot(x, y)) * (dot(turn, along) < 0.0 ? -1.0 : 1.0);
+            for (const auto& [edge, neighbour] : {std::pair(a, b.wedge), std::pair(b, a.wedge)}) {
+                const std::size_t side = 2 * std::size_t{edge.wedge} + (edge.leaves ? 0 : 1);
+                bend_of_[side] = bend, beside_[side] = neighbour;
+            }
+        }
+        for (std::uint32_t i = 0; i < wedges_.size(); ++i) {
+            if (!is_tip(corners[i])) continue;
+            const double first = bend_of_[2 * i], last = bend_of_[2 * i + 1];
+            const double least = std::min(std::abs(first), std::abs(last)), most = std::max(std::abs(first), std::abs(last));
+            if (!(first * last < 0.0) || least < kAlike * most || most > kMostWidened * crease_rad_) continue;
+            if (wedges_[beside_[2 * i]].angle < kLeastAngleBeside || wedges_[beside_[2 * i + 1]].angle < kLeastAngleBeside) continue;
+            marks[corners[i]] = marks[following(following(corners[i]))] = 1;
+        }
+    }
+
+    /// True if a corner is the tip of a slender triangle.
+    [[nodiscard]] bool is_tip(std::uint32_t corner) const {
+        const std::uint32_t next = following(corner), last = following(next);
+        const Vec3d here = at(corner), a = at(next) - here, b = at(last) - here, across = at(last) - at(next);
+        return dot(across, across) <= kSlender * kSlender * std::min(dot(a, a), dot(b, b));
     }
 
     void add_normals(std::span<const std::uint32_t> corners) {
@@ -187,7 +233,9 @@ private:
     void join_smooth_edges(std::span<const std::uint32_t> corners) {
         least_cosine_here_ = is_scan_ ? widened_cosine() : least_cosine_;
         const auto join_if_smooth = [&](const Edge& a, const Edge& b) {
-            if (a.leaves != b.leaves && is_smooth(a.wedge, corners[a.wedge] / 3, b.wedge, corners[b.wedge] / 3)) join(a.wedge, b.wedge);
+            if (a.leaves != b.leaves && (is_smooth(a.wedge, corners[a.wedge] / 3, b.wedge, corners[b.wedge] / 3) ||
+                                         is_to_and_fro(a, corners) || is_to_and_fro(b, corners)))
+                join(a.wedge, b.wedge);
         };
         bool has_copies = false;
         for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) {
@@ -226,6 +274,11 @@ private:
         join_if_smooth(single[0], single[single[0].leaves != single[other].leaves ? other : last]);
         join_if_smooth(single[back], single[single[back].leaves != single[other].leaves ? other : last]);
     }
+    [[nodiscard]] bool is_to_and_fro(const Edge& edge, std::span<const std::uint32_t> corners) const {
+        if (to_and_fro_.empty()) return false;
+        const std::uint32_t corner = corners[edge.wedge];
+        return smoothing(corner / 3) == Soup::kByCrease && to_and_fro_[edge.leaves ? corner : following(following(corner))] != 0;
+    }
     [[nodiscard]] bool is_smooth(std::uint32_t a, std::size_t triangle_a, std::uint32_t b, std::size_t triangle_b) const {
         const std::uint32_t group = smoothing(triangle_a);
         if (group != smoothing(triangle_b)) return false;
@@ -235,12 +288,15 @@ private:
     }
 
     Soup& soup_;
+    std::span<const std::uint8_t> to_and_fro_;
     std::vector<Vec3f>& normals_;
     std::uint32_t first_;
     double crease_rad_, least_cosine_;
     bool is_scan_;
     double least_cosine_here_ = 0;
     std::vector<double> bends_;
+    std::vector<double> bend_of_;        ///< of the two edges of each wedge, above 0 where the surface is convex; 0: not known
+    std::vector<std::uint32_t> beside_;  ///< the wedges across them
     std::vector<Wedge> wedges_;
     std::vector<Edge> edges_;
     std::vector<Copy> copies_;  ///< of the place's wedges; empty where no edge has copies
@@ -251,7 +307,7 @@ private:
 bool is_scan(Soup& soup, const CornersOfPlaces& corners) {
     if (soup.position_of.size() < 3 * kManyTriangles) return false;
     std::vector<Vec3f> none;
-    NormalMaker probe(soup, 0.0, false, none, 0);
+    NormalMaker probe(soup, 0.0, false, {}, none, 0);
     std::vector<double> bends;
     const std::size_t step = corners.places() / kProbedPlaces + 1;
     for (std::size_t place = 0; place < corners.places(); place += step)
@@ -263,6 +319,27 @@ bool is_scan(Soup& soup, const CornersOfPlaces& corners) {
     return static_cast<double>(flat) <= kMostFlat * static_cast<double>(bends.size()) && *middle < kUsualBend;
 }
 
+/// The edges of strips that bend to and fro, as NormalMaker takes them; empty: there are none.
+std::vector<std::uint8_t> find_strips(Soup& soup, const CornersOfPlaces& corners, double crease_deg, int threads) {
+    const std::size_t parts = parts_of(corners.places(), kPlacesAThread, threads);
+    std::vector<std::uint8_t> marks(soup.position_of.size());
+    std::vector<std::uint8_t> some(parts);
+    in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        std::vector<Vec3f> none;
+        NormalMaker maker(soup, crease_deg, false, {}, none, 0);
+        TimeCheck check;
+        for (std::size_t place = begin; place < end; ++place) {
+            check();
+            const auto here = corners.at(static_cast<std::uint32_t>(place));
+            if (std::none_of(here.begin(), here.end(), [&](std::uint32_t corner) { return maker.is_tip(corner); })) continue;
+            maker.mark_strips(here, marks);
+            some[part] = 1;
+        }
+    });
+    if (std::count(some.begin(), some.end(), 1) == 0) marks.clear();
+    return marks;
+}
+
 }  // namespace
 
 void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double crease_deg, int threads) {
@@ -271,8 +348,10 @@ void add_crease_normals(Soup& soup, const CornersOfPlaces& corners, double creas
     const auto first = static_cast<std::uint32_t>(soup.normals.size());
     std::vector<std::vector<Vec3f>> made(parts);
     const bool scan = crease_deg > 0 && is_scan(soup, corners);
+    std::vector<std::uint8_t> to_and_fro;
+    if (crease_deg > 0) to_and_fro = find_strips(soup, corners, crease_deg, threads);
     in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-        NormalMaker maker(soup, crease_deg, scan, made[part], first);
+        NormalMaker maker(soup, crease_deg, scan, to_and_fro, made[part], first);
         for (std::size_t place = begin; place < end; ++place) maker.add_normals(corners.at(static_cast<std::uint32_t>(place)));
     });
     // One list of all, in the order of the places.

@@ -687,7 +687,7 @@ typedef struct halflit_settings {
     /// edges are sharp. (0)
     float shadow_softness_deg;
     /// HALFLIT_EDL: Shading by the depths of the picture: a surface is darker where its neighbours are nearer to the viewer.
-    /// Transparent surfaces count as not there. (o)
+    /// Transparent surfaces count as not there. (off)
     int32_t edl;
     /// of that shading, 0 to 16 (1)
     float edl_strength;
