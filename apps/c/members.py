@@ -148,7 +148,7 @@ def settings():
         if place not in members or not members[place][2]:
             sys.exit(f"members.py: no comment of {place}")
         kind, default, doc = members[place]
-        short = lambda x: re.sub(r"(?<=\d)f$", "", x.split("::")[-1].replace("{256} << 20", "256 MiB"))
+        short = lambda x: re.sub(r"(?<=\d)f$", "", x.split("::")[-1].replace("{256} << 20", "256 MiB")).replace("automatic", "auto")
         default = "256 MiB" if "<< 20" in default else re.sub(r"\.0$", "", short(default))
         if name == "environment_tolerance":
             default = "1/510"

@@ -114,7 +114,7 @@ class PictureOptions(ViewOptions, total=False):
             its shadows show it, by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide.
             Degrees, 0 to 10; 0: all edges are sharp. (3.0)
         edl: Shading by the depths of the picture: a surface is darker where its neighbours are nearer to the viewer. Transparent
-            surfaces count as not there.: "off", "auto", "on" (automatic)
+            surfaces count as not there.: "off", "auto", "on" (auto)
         edl_strength: of that shading, 0 to 16 (1)
         edge_contrast: black lines on surfaces of dark materials are light grey instead (True)
 
