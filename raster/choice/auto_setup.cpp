@@ -210,8 +210,9 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     const FramedView seen =
         chosen != nullptr ? FramedView{front_view(scene, options.view), *chosen} : choose_view(scene, bounds, aspect, options.view);
-    setup.view = seen.view, setup.camera = seen.camera;
+    setup.view = seen.view, setup.camera = seen.camera, setup.view_reason = seen.reason;
     setup.settings = usual_settings();
+    if (options.view.orthographic && setup.camera.orthographic) setup.settings.shadows = ShadowMode::off;
     setup.settings.background_linear = raster::suited_background(scene);
     auto [light, exposure] = raster::completed_light(scene, bounds, setup.camera, options);
     setup.light = std::move(light);

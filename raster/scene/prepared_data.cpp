@@ -155,7 +155,6 @@ void PreparedData::find_looks() {
 
 void PreparedData::collect() {
     bounds_ = {};
-    framed_bounds_ = {};
     triangle_count_ = 0;
     available_slots_.assign(material_count(), shading::kBaseSlots);
     drawn_materials_.assign(material_count(), false);
@@ -174,7 +173,6 @@ void PreparedData::collect() {
         if (mesh.indices.empty() || !instance.visible) continue;
         bounds_.include(instance_bounds_[i]);
         triangle_count_ += raster::triangle_count(mesh);
-        if (!catches_shadows(*scene_, instance)) framed_bounds_.include(instance_bounds_[i]);
         drawn_materials_[material] = true;
         const Bounds& box = instance_bounds_[i];
         if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);
@@ -183,6 +181,13 @@ void PreparedData::collect() {
         largest_uv_ = std::max(largest_uv_, static_cast<double>(prepared.largest_uv));
         largest_color_ = std::max(largest_color_, static_cast<double>(prepared.largest_color));
     }
+    measure_framed();
+}
+
+void PreparedData::measure_framed() {
+    framed_bounds_ = {};
+    for (std::size_t i = 0; i < scene_->instances.size(); ++i)
+        if (counts_for_views(*scene_, scene_->instances[i])) framed_bounds_.include(instance_bounds_[i]);
 }
 
 void PreparedData::find_coplanar(std::span<const std::uint8_t> moved) {
@@ -291,6 +296,8 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
     if (deformed || other_looks || !pending_.changed_instances.empty()) {
         collect();
         revision_.geometry = next_revision();
+    } else if (pending_.materials) {
+        measure_framed();
     }
     // The plan leaves out what no drawn instance needs.
     if (deformed || other_looks || pending_.materials || drawn_materials_ != drawn_before) {

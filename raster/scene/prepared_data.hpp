@@ -42,9 +42,9 @@ public:
     [[nodiscard]] const SceneRevision& revision() const { return revision_; }
     /// False after an update that failed.
     [[nodiscard]] bool up_to_date() const { return up_to_date_; }
-    /// World-space box of everything drawn; the same as scene_bounds.
+    /// World-space box of everything drawn.
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
-    /// Without shadow catchers: what a view shows.
+    /// What views look at; the same as scene_bounds().
     [[nodiscard]] const Bounds& framed_bounds() const { return framed_bounds_; }
     [[nodiscard]] const PreparedMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
     /// World-space box of each instance.
@@ -87,7 +87,8 @@ private:
     void place(std::size_t instance);                ///< finds its box
     Result<void> note(const SceneChanges& changes);  ///< adds them to pending_
     Result<void> apply_pending(const Execution& execution);
-    void collect();     ///< sums over meshes and instances
+    void collect();  ///< sums over meshes and instances
+    void measure_framed();
     void find_looks();  ///< materials of instances that have a colour
     /// moved: instances whose pairs are searched anew; empty: all.
     void find_coplanar(std::span<const std::uint8_t> moved);

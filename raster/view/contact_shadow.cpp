@@ -21,7 +21,7 @@ constexpr int kSide = 64;       ///< cells on a side of the map: bits of a word
 constexpr int kCellVoxels = 2;  ///< along each axis
 constexpr int kDirections = 64, kCountBits = std::bit_width(unsigned{kDirections});
 constexpr double kReach = 0.3;         ///< within which the shadow fades beside the foot, over the longest side
-constexpr double kPictureFade = 0.04;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
+constexpr double kPictureFade = 0.06;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
 
 using Word = BitGrid::Word;
 

@@ -1,5 +1,6 @@
 #include "raster/view/filled_voxels.hpp"
 
+#include "raster/scene/framed_part.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
@@ -125,7 +126,7 @@ double rounded_up(double x) {
 
 FilledVoxels filled_voxels(const PreparedData& scene) {
     FilledVoxels voxels;
-    const Bounds& bounds = scene.framed_bounds();
+    const Bounds bounds = main_bounds(scene.scene(), scene.framed_bounds());
     if (bounds.empty) return voxels;
     const Vec3d low = to_double(bounds.min), high = to_double(bounds.max), side = high - low, middle = (low + high) * 0.5;
     const double longest = std::max({side.x, side.y, side.z});

@@ -1,5 +1,6 @@
 #include "halflit/target.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/cli/small_models.hpp"
 
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
@@ -7,6 +8,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <string>
+#include <vector>
 
 using namespace halflit::test;
 
@@ -45,6 +48,25 @@ TEST_CASE("report: it counts what was drawn and names the pixels by their hash",
     CHECK(report["peak_memory_bytes"].get<double>() > 1e6);
     for (const char* time : {"load_ms", "render_ms", "encode_ms"}) CHECK(report[time].get<double>() >= 0.0);
     for (const char* stage : {"plan", "transform", "bin", "tiles"}) CHECK(report["stages"][stage].get<double>() >= 0.0);
+}
+
+TEST_CASE("report: a warning names what a view of the whole leaves out", "[cli]") {
+    const TemporaryFolder folder;
+    std::vector<Corners> triangles = sphere_with_spike(1.0);
+    for (const Corners& triangle : box({2000, 0, 0}, {2000.1, 0.1, 0.1})) triangles.push_back(triangle);
+    const std::string model = folder.file("far.stl");
+    folder.write("far.stl", stl_of(triangles));
+    const auto warnings = [&](const std::vector<std::string>& flags) {
+        std::vector<std::string> words = {"render", model, "--size", "20x20", "-o", folder.file("a.png"), "--report", "-"};
+        words.insert(words.end(), flags.begin(), flags.end());
+        return json_of(run(words).out)["warnings"];
+    };
+    for (const std::vector<std::string>& flags : {std::vector<std::string>{}, {"--view", "top"}, {"--azimuth", "70"}}) {
+        const auto told = warnings(flags);
+        REQUIRE(told.size() == 1);
+        CHECK(told[0].get<std::string>().find("far from all else") != std::string::npos);
+    }
+    CHECK(warnings({"--camera-position", "0,0,9", "--camera-target", "0,0,0"}).empty());
 }
 
 TEST_CASE("report: - is standard output, the picture goes to its file", "[cli]") {

@@ -314,6 +314,9 @@ TEST_CASE("setup: what the caller decides is not chosen", "[raster][setup]") {
     setup = set_up(scene, 200, 100, {.frame = true, .view = view});
     CHECK(setup.framed);
     CHECK(setup.camera == frame_scene(scene, 2.0f, view));
+    CHECK(setup.settings.shadows == usual_settings().shadows);
+    setup = set_up(scene, 200, 100, {.frame = true, .view = {.orthographic = true}});
+    CHECK(setup.settings.shadows == ShadowMode::off);  // of parallel rays that were asked for
 
     // Ambient light beside the default lights, instead of theirs, and alone.
     Scene bare = box_scene();

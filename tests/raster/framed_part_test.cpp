@@ -2,12 +2,17 @@
 #include "halflit/camera.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/scene/framed_part.hpp"
 
 #include "tests/support/catch.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 using namespace halflit;
 
@@ -34,6 +39,51 @@ bool same(const Camera& a, const Camera& b) {
     bool same = a.fov_y_rad == b.fov_y_rad && a.near_z == b.near_z && a.far_z == b.far_z;
     for (int k = 0; k < 4; ++k) same &= a.world_from_camera.c[k] == b.world_from_camera.c[k];
     return same;
+}
+
+/// Adds an instance with a material of its own, whose texture has an alpha for each of the 16 x 16 texels.
+void add_card(Scene& scene, Mesh mesh, AlphaMode mode, const std::function<int(int x, int y)>& alpha) {
+    std::vector<std::uint8_t> texels;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (const int value : {255, 255, 255, alpha(x, y)}) texels.push_back(static_cast<std::uint8_t>(value));
+    const auto texture = Texture::from_rgba8(texels, 16, 16, ColorSpace::srgb, MipRule::alpha);
+    REQUIRE(texture);
+    Material material;
+    material.alpha_mode = mode;
+    material.textures[TextureSlot::base_color].texture = static_cast<int>(scene.textures.size());
+    material.textures[TextureSlot::base_color].sampler.wrap_u = material.textures[TextureSlot::base_color].sampler.wrap_v =
+        TextureWrap::clamp;
+    mesh.material = static_cast<int>(scene.materials.size());
+    scene.textures.push_back(*texture);
+    scene.materials.push_back(material);
+    add(scene, std::move(mesh), {});
+}
+
+/// An upright square around the origin, seen from +z.
+Mesh card(float half) {
+    Mesh mesh;
+    mesh.positions = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
+    mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+Mesh inside_out(Mesh mesh) {
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    return mesh;
+}
+
+void append(Mesh& mesh, const Mesh& other, Vec3f at) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3f p : other.positions) mesh.positions.push_back(p + at);
+    for (const std::uint32_t index : other.indices) mesh.indices.push_back(first + index);
+}
+
+Mesh positions_of(const Mesh& mesh) {
+    Mesh out;
+    append(out, mesh, {0, 0, 0});
+    return out;
 }
 
 double distance_of(const Camera& camera) {
@@ -164,4 +214,132 @@ TEST_CASE("framed part: a backdrop is left out of the view of the whole, unless 
     const Camera wanted = framed(alone);
     alone.instances.back().backdrop = true;
     CHECK(same(framed(alone), wanted));
+}
+
+TEST_CASE("framing: what has no size, or is hidden by alpha, is not framed", "[raster][framing]") {
+    const Camera alone = framed(car());
+    Scene flat = car();
+    Mat4 nowhere = translation({100, 0, 0});
+    for (int k = 0; k < 3; ++k) nowhere.c[k] = {0, 0, 0, 0};
+    flat.instances.push_back({0, nowhere});
+    CHECK(same(framed(flat), alone));
+    for (const AlphaMode mode : {AlphaMode::blend, AlphaMode::mask}) {
+        Scene clear = car();
+        Material material;
+        material.alpha_mode = mode;
+        material.base_color.w = 0.0f;
+        clear.materials.push_back(material);
+        add(clear, make_box({30, 30, 30}), {});
+        clear.meshes.back().material = 0;
+        CHECK(same(framed(clear), alone));
+        clear.materials[0].transmission = 1.0f;  // glass is seen, whatever its alpha
+        CHECK(distance_of(framed(clear)) > 5 * distance_of(alone));
+
+        Scene hidden = car();
+        add_card(hidden, card(30), mode, [](int, int) { return 0; });
+        CHECK(same(framed(hidden), alone));
+
+        Scene faint = car();  // by the alpha of vertices
+        Mesh by_vertices = card(30);
+        by_vertices.uv0.clear();
+        by_vertices.colors.assign(4, {1, 1, 1, 0});
+        faint.materials.push_back(material);
+        faint.materials[0].base_color.w = 1.0f;
+        by_vertices.material = 0;
+        add(faint, by_vertices, {});
+        CHECK(same(framed(faint), alone));
+    }
+}
+
+TEST_CASE("framing: of a card, the texels that are seen are framed", "[raster][framing]") {
+    for (const AlphaMode mode : {AlphaMode::blend, AlphaMode::mask}) {
+        Scene whole, inner, quarter;
+        add(whole, card(8), {});
+        add_card(inner, card(8), mode, [](int x, int y) { return x >= 4 && x < 12 && y >= 4 && y < 12 ? 255 : 0; });
+        const double ratio = distance_of(framed(inner)) / distance_of(framed(whole));
+        CHECK(ratio > 0.5);  // half of each side, and the texel around it that a filter reads
+        CHECK(ratio < 0.66);
+        add_card(quarter, card(8), mode, [](int x, int y) { return x < 8 && y < 8 ? 255 : 0; });
+        const Camera camera = frame_scene(quarter, 1.0f, {.azimuth_deg = 0, .elevation_deg = 0});
+        CHECK(std::abs(camera.world_from_camera.c[3].x + 4) < 0.6f);  // the upper left quarter
+        CHECK(std::abs(camera.world_from_camera.c[3].y - 4) < 0.6f);
+    }
+}
+
+TEST_CASE("framing: a little of the surface that lies far from all else is left out", "[raster][framing]") {
+    const Mesh ball = make_sphere(1.0f, 48, 24);
+    Scene alone;
+    add(alone, positions_of(ball), {});
+    const Camera wanted = framed(alone);
+    Mat4 small = translation({2000, 0, 0});
+    for (int k = 0; k < 3; ++k) small.c[k] = {k == 0 ? 0.05f : 0.0f, k == 1 ? 0.05f : 0.0f, k == 2 ? 0.05f : 0.0f, 0};
+    Scene pair = alone;  // as many vertices, a 400th of the surface
+    pair.instances.push_back({0, small});
+    CHECK(same(framed(pair), wanted));
+    for (const float far : {60.0f, 2000.0f}) {
+        Scene cube = alone;
+        add(cube, make_box({0.05f, 0.05f, 0.05f}), translation({far, 0, 0}));
+        CHECK(same(framed(cube), wanted));
+        Scene one_mesh;
+        Mesh both = positions_of(ball);
+        append(both, make_box({0.05f, 0.05f, 0.05f}), {far, 0, 0});
+        add(one_mesh, both, {});
+        CHECK(same(framed(one_mesh), wanted));
+        Scene houses;  // of like size
+        add(houses, make_box({1, 1, 1}), {});
+        add(houses, make_box({0.5f, 0.5f, 0.5f}), translation({far, 0, 0}));
+        CHECK(distance_of(framed(houses)) > far / 2);
+    }
+    // A thin rod that is joined to the ball belongs to it, in one mesh or as a thing of its own.
+    Mesh rod = make_box({30, 0.001f, 0.001f});
+    Scene joined;
+    Mesh both = positions_of(ball);
+    append(both, rod, {30.5f, 0, 0});
+    add(joined, both, {});
+    CHECK(distance_of(framed(joined)) > 5 * distance_of(wanted));
+    Scene beside = alone;
+    add(beside, rod, translation({30.5f, 0, 0}));
+    CHECK(distance_of(framed(beside)) > 5 * distance_of(wanted));
+}
+
+TEST_CASE("framing: a shell around all else is left out if it is seen from inside", "[raster][framing]") {
+    const Camera alone = framed(car());
+    const auto with_shell = [&](Mesh shell, Vec3f at, bool both_sides, bool unlit) {
+        Scene scene = car();
+        Material material;
+        material.double_sided = both_sides, material.unlit = unlit;
+        scene.materials.push_back(material);
+        shell.material = 0;
+        add(scene, std::move(shell), translation(at));
+        return scene;
+    };
+    const Mesh dome = make_sphere(100, 32, 16);
+    CHECK(same(framed(with_shell(inside_out(dome), {0, 0, 0}, false, false)), alone));
+    CHECK(same(framed(with_shell(inside_out(make_box({100, 100, 100})), {3, 20, 5}, true, false)), alone));
+    CHECK(same(framed(with_shell(dome, {0, 0, 0}, true, true)), alone));
+    Scene with_ground = with_shell(inside_out(dome), {0, 0, 0}, false, false);
+    add(with_ground, make_plane(90, 1), {});
+    CHECK(same(framed(with_ground), alone));
+    // A body that encloses the rest, a room that is not much larger, and a shell beside all else.
+    CHECK(distance_of(framed(with_shell(dome, {0, 0, 0}, false, false))) > 20 * distance_of(alone));
+    CHECK(distance_of(framed(with_shell(inside_out(make_box({15, 15, 15})), {0, 0, 0}, false, false))) > 3 * distance_of(alone));
+    CHECK(distance_of(framed(with_shell(inside_out(dome), {150, 0, 0}, false, false))) > 20 * distance_of(alone));
+}
+
+TEST_CASE("framing: main bounds lack what is far away and shells, and keep grounds", "[raster][framing]") {
+    const auto same_box = [](const Bounds& a, const Bounds& b) { return a.min == b.min && a.max == b.max && a.empty == b.empty; };
+    const auto main_of = [](const Scene& scene) { return raster::main_bounds(scene, scene_bounds(scene)); };
+    const Bounds alone = scene_bounds(car());
+    CHECK(same_box(main_of(car()), alone));
+    Scene scene = car();
+    add(scene, make_box({0.05f, 0.05f, 0.05f}), translation({2000, 0, 0}));
+    CHECK(same_box(main_of(scene), alone));
+    add(scene, inside_out(make_sphere(50000, 32, 16)), {});
+    CHECK(same_box(main_of(scene), alone));
+    Scene standing = car();
+    add(standing, make_plane(100, 1), {});
+    const Bounds with_ground = scene_bounds(standing);
+    CHECK(same_box(main_of(standing), with_ground));
+    add(standing, make_box({0.05f, 0.05f, 0.05f}), translation({60000, 0, 0}));
+    CHECK(same_box(main_of(standing), with_ground));
 }

@@ -2,9 +2,13 @@
 #include "halflit/auto_setup.hpp"
 #include "halflit/renderer.hpp"
 #include "halflit/shapes.hpp"
+#include "raster/view/projection.hpp"
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace halflit;
@@ -88,6 +92,92 @@ TEST_CASE("view: what is flat is seen from farther above, a cube and a tower as 
     const ViewSettings behind = choose_view(scene, scene_bounds(scene), 1.0f, usual).view;
     CHECK(behind.azimuth_deg == usual.azimuth_deg + 180);
     CHECK(behind.elevation_deg > 35);
+}
+
+TEST_CASE("view: what is open at the top is seen from farther above", "[raster][view]") {
+    const ViewSettings usual;
+    // A block, and the same with a hole, of four blocks around it.
+    const auto frame = [](float inner) {
+        Scene scene;
+        const float wall = (1 - inner) / 2, middle = (1 + inner) / 2;
+        for (const auto& [half, at] :
+             {std::pair{Vec3f{wall, 1, 1}, Vec3f{middle, 0, 0}}, std::pair{Vec3f{wall, 1, 1}, Vec3f{-middle, 0, 0}},
+              std::pair{Vec3f{inner, 1, wall}, Vec3f{0, 0, middle}}, std::pair{Vec3f{inner, 1, wall}, Vec3f{0, 0, -middle}}}) {
+            scene.instances.push_back({static_cast<int>(scene.meshes.size()), translation(at)});
+            scene.meshes.push_back(make_box(half));
+        }
+        return scene;
+    };
+    const auto chosen = [&](const Scene& scene) { return choose_view(scene, scene_bounds(scene), 1.0f, usual); };
+    const FramedView open = chosen(frame(0.5f));
+    CHECK(open.view.elevation_deg == 35);
+    CHECK(open.view.azimuth_deg == usual.azimuth_deg);
+    CHECK(open.reason == ViewReason::hollow);
+    Scene closed = frame(0.5f);  // with a lid
+    closed.instances.push_back({static_cast<int>(closed.meshes.size()), translation({0, 0.9f, 0})});
+    closed.meshes.push_back(make_box({0.5f, 0.1f, 0.5f}));
+    CHECK(chosen(closed).view == usual);
+    Scene slit = frame(0.5f);  // a wall is missing: nothing is enclosed
+    slit.instances.pop_back();
+    CHECK(chosen(slit).view.elevation_deg < 25);
+}
+
+TEST_CASE("view: like models get like views", "[raster][view]") {
+    const ViewSettings usual;
+    const auto chosen = [&](const Mesh& mesh) {
+        const Scene scene = with(mesh);
+        return choose_view(scene, scene_bounds(scene), 1.0f, usual).view;
+    };
+    const auto differ = [](const ViewSettings& a, const ViewSettings& b) {
+        return std::max(std::abs(a.azimuth_deg - b.azimuth_deg), std::abs(a.elevation_deg - b.elevation_deg));
+    };
+    const ViewSettings torus = chosen(make_torus(1, 0.25f, 64, 32));
+    Mesh upright_torus = make_torus(1, 0.25f, 64, 32);
+    for (Vec3f& p : upright_torus.positions) p = {p.x, -p.z, p.y};
+    const ViewSettings upright = chosen(upright_torus);
+    for (const float tube : {0.15f, 0.2f, 0.3f, 0.35f, 0.4f}) {
+        Mesh mesh = make_torus(1, tube, 64, 32);
+        CHECK(differ(chosen(mesh), torus) < 5);
+        for (Vec3f& p : mesh.positions) p = {p.x, -p.z, p.y};
+        CHECK(differ(chosen(mesh), upright) < 5);
+    }
+    for (const bool flat : {true, false}) {
+        const auto slab = [&](float thin) { return chosen(make_box(flat ? Vec3f{3, thin, 2} : Vec3f{3, 2, thin})); };
+        for (float thin = 0.05f; thin < 2.0f; thin += 0.05f) CHECK(differ(slab(thin), slab(thin + 0.05f)) < 6);
+        CHECK(differ(slab(0.05f), usual) > 20);
+        CHECK(slab(2.0f) == usual);
+    }
+}
+
+TEST_CASE("view: there is room for the shadow below what stands", "[raster][view]") {
+    const Scene scene = with(make_box({1, 1, 1}));
+    const Bounds bounds = scene_bounds(scene);
+    const auto reach = [&](const Camera& camera, Vec3f point) {  // 1: the picture's border
+        const Mat4 clip = raster::clip_from_world(camera, 1.0f);
+        const auto row = [&](float Vec4f::*of) {
+            return ((clip.c[0].*of * point.x + clip.c[1].*of * point.y) + clip.c[2].*of * point.z) + clip.c[3].*of;
+        };
+        return Vec2f{row(&Vec4f::x) / row(&Vec4f::w), row(&Vec4f::y) / row(&Vec4f::w)};
+    };
+    const Camera tight = frame_scene(scene, 1.0f), roomy = choose_view(scene, bounds, 1.0f, {}).camera;
+    float largest = 0, lowest = 0, low_before = 0, width_before = 0, width = 0;
+    for (const float x : {-1.0f, 1.0f})
+        for (const float y : {-1.0f, 1.0f})
+            for (const float z : {-1.0f, 1.0f}) {
+                const Vec2f before = reach(tight, {x, y, z}), after = reach(roomy, {x, y, z});
+                largest = std::max({largest, std::abs(after.x), std::abs(after.y)});
+                lowest = std::min(lowest, after.y), low_before = std::min(low_before, before.y);
+                width_before = std::max(width_before, std::abs(before.x)), width = std::max(width, std::abs(after.x));
+            }
+    CHECK(largest < 0.93f);
+    CHECK(lowest > low_before + 0.05f);
+    CHECK(width > 0.93f * width_before);
+    // Margins that were asked for stay, and drawings have no such shadow.
+    ViewSettings view;
+    view.margin_x = view.margin_y = 0.05;
+    CHECK(choose_view(scene, bounds, 1.0f, view).camera == frame_scene(scene, bounds, 1.0f, view));
+    view = {.orthographic = true};
+    CHECK(choose_view(scene, bounds, 1.0f, view).camera == frame_scene(scene, bounds, 1.0f, view));
 }
 
 TEST_CASE("visible side: a camera inside of a body gives way to a view of the whole", "[raster][view]") {

@@ -1,6 +1,6 @@
 #include "apps/engine/job/film_view.hpp"
 
-#include "raster/scene/instance_material.hpp"
+#include "raster/choice/framing.hpp"
 #include "raster/scene/placed_point.hpp"
 #include "sh/mat4.hpp"
 #include "sh/trig.hpp"
@@ -62,11 +62,14 @@ private:
 };
 
 void add_vertices(const Scene& scene, Profile& profile) {
-    for (const Instance& instance : scene.instances) {
-        if (!raster::counts_for_views(scene, instance)) continue;
+    const raster::FramedPart part = raster::framed_part(scene);
+    for (const int i : part.instances) {
+        const Instance& instance = scene.instances[static_cast<std::size_t>(i)];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        for (const std::uint32_t index : mesh.indices)
-            profile.add(raster::placed_in_double(instance.world_from_object, mesh.positions[index]));
+        const raster::FramedVertices& framed = part.meshes[static_cast<std::size_t>(instance.mesh)];
+        const auto add = [&](Vec3f p) { profile.add(raster::placed_in_double(instance.world_from_object, p)); };
+        for (const std::uint32_t v : framed.vertices) add(mesh.positions[v]);
+        for (const Vec3f& p : framed.points) add(p);
     }
 }
 
@@ -90,7 +93,7 @@ Result<Bounds> swept_bounds(RenderJob& job, const RenderOptions& options) {
     for (int step = kSteps; step >= 0; --step) {
         const auto posed = pose_job(job, options, job.animation()->end_s * step / kSteps);
         if (!posed) return tl::unexpected(posed.error());
-        bounds.include(scene_bounds(job.scene()));
+        bounds.include(raster::framed_bounds(job.scene()));
     }
     return bounds;
 }
@@ -107,7 +110,8 @@ std::optional<Camera> film_camera(const Scene& scene, const Bounds& bounds, cons
     } else {
         add_vertices(scene, profile);
     }
-    return frame_scene(profile.scene(), aspect, view);
+    const Scene discs = profile.scene();
+    return raster::frame_with_shadow(discs, raster::framed_part(discs), scene_bounds(discs), aspect, view);
 }
 
 Camera turned_camera(const Camera& camera, const Bounds& bounds, std::int64_t frame, int frames_of_turn) {

@@ -17,6 +17,7 @@
 #include "halflit/scene.hpp"
 #include "raster/check_execution.hpp"
 #include "raster/choice/completed_light.hpp"
+#include "raster/scene/framed_part.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -27,6 +28,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace halflit::engine {
 namespace {
@@ -43,9 +46,25 @@ Result<void> check_size(PictureSize size, const Region& region) {
     return {};
 }
 
-/// view: of the whole scene, in place of the usual one. replaces: the file has a camera that shows the scene small or not at all.
-std::string camera_choice(const Camera* of_file, const RenderOptions& options, const ViewSettings& view, const ViewSettings& usual,
-                          bool replaces) {
+std::string_view reason_text(ViewReason reason) {
+    switch (reason) {
+        case ViewReason::flat:
+            return ", as it is flat";
+        case ViewReason::hollow:
+            return ", as it is open at the top";
+        case ViewReason::thin:
+            return ", as it is upright and thin";
+        case ViewReason::backs:
+            return ", as the usual side shows backs alone";
+        case ViewReason::usual:
+        case ViewReason::given:
+            break;
+    }
+    return "";
+}
+
+/// view: of the whole scene. replaces: the file has a camera that shows the scene small or not at all.
+std::string camera_choice(const Camera* of_file, const RenderOptions& options, const ViewSettings& view, ViewReason reason, bool replaces) {
     if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
     if (options.cameras) {
         const CameraFile& file = *options.cameras;
@@ -59,8 +78,7 @@ std::string camera_choice(const Camera* of_file, const RenderOptions& options, c
     if (!options.film.views.empty())
         return fmt::format("camera: the whole scene, {}, all sides at one scale", options.film.views.front().name);
     return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}{}{}", view.azimuth_deg, view.elevation_deg,
-                       view == usual ? "" : fmt::format(", which shows more than {},{}", usual.azimuth_deg, usual.elevation_deg),
-                       replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
+                       reason_text(reason), replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
 }
 
 std::string pose_choice(const AnimationInfo& animation, int index, double time_s) {
@@ -116,12 +134,34 @@ Result<void> begin_light(RenderJob& job, const RenderOptions& options) {
 }
 
 /// Keeps what was chosen for people to read, and warns where the usual side shows nothing.
-void tell_view(RenderJob& job, const RenderOptions& options, float aspect, const ViewSettings& drawn) {
-    job.film.view = drawn;
-    const ViewSettings usual = front_view(job.scene(), options.view);
-    if (drawn == usual || shows_surface(job.scene(), frame_scene(job.scene(), job.film.bounds, aspect, usual), aspect)) return;
+void tell_view(RenderJob& job, const ViewSettings& drawn, ViewReason reason) {
+    job.film.view = drawn, job.film.reason = reason;
+    if (reason != ViewReason::backs) return;
     job.warnings.push_back(fmt::format("from the usual side only backs are seen, which are not drawn; seen from {:g},{:g}",
                                        drawn.azimuth_deg, drawn.elevation_deg));
+}
+
+/// Warns of what a view of the whole leaves out. A ground reaches out of the picture for all to see.
+void warn_of_left_out(RenderJob& job) {
+    constexpr std::size_t kMostNamed = 5;
+    const NameOfInstance name_of = names_of(job.source.parts);
+    std::vector<std::string> named;
+    std::set<std::pair<int, raster::LeftOutFor>> noted;
+    for (const auto& [instance, reason, partly] : raster::framed_part(job.scene()).left_out) {
+        if (reason != raster::LeftOutFor::far && reason != raster::LeftOutFor::shell) continue;
+        const int part = job.source.parts->of_instance(static_cast<std::size_t>(instance));
+        if (part >= 0 && !noted.emplace(part, reason).second) continue;
+        const std::string name = name_of(static_cast<std::size_t>(instance));
+        named.push_back(fmt::format("{}{}, {}", partly ? "a piece of " : "",
+                                    name.empty() ? fmt::format("part {}", part + 1) : "'" + io::printable(name) + "'",
+                                    reason == raster::LeftOutFor::far ? "far from all else" : "around all else"));
+    }
+    if (named.empty()) return;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(named.size(), kMostNamed); ++i) list += (i == 0 ? "" : "; ") + named[i];
+    if (named.size() > kMostNamed) list += fmt::format("; and {} more", named.size() - kMostNamed);
+    std::string warning = "the view of the whole leaves out: " + list;
+    if (std::find(job.warnings.begin(), job.warnings.end(), warning) == job.warnings.end()) job.warnings.push_back(std::move(warning));
 }
 
 /// Chooses size, camera, light and exposure: what the flags say, and choose_picture for the rest.
@@ -142,9 +182,10 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
         return fail(ErrorCode::usage, "--background: environment needs --env");
     job.camera = choice->camera;
     job.film.framed |= choice->framed;
-    if (choice->framed) tell_view(job, options, static_cast<float>(job.width) / static_cast<float>(job.height), choice->view);
+    if (choice->framed) tell_view(job, choice->view, choice->view_reason);
     job.film.file_camera = choice->scene_camera;
     job.settings.exposure = choice->settings.exposure;
+    if (choice->settings.shadows == ShadowMode::off && !options.has_given("shadows")) job.settings.shadows = ShadowMode::off;
     job.settings.shading.emission_scale = choice->settings.shading.emission_scale;
     Vec4f background = (options.one_of_many ? usual_settings() : choice->settings).background_linear;
     if (options.kept_view) {
@@ -263,9 +304,13 @@ Result<PictureRequest> request_of(RenderJob& job, const RenderOptions& options, 
         const PictureSize size = options.size.value_or(usual);
         const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
         if (options.film.moves() && !bounds.empty) {
-            const ViewSettings view =
-                options.own_view() ? front_view(job.scene(), options.view) : choose_view(job.scene(), bounds, aspect, options.view).view;
-            tell_view(job, options, aspect, view);
+            ViewSettings view = front_view(job.scene(), options.view);
+            ViewReason reason = ViewReason::given;
+            if (!options.own_view()) {
+                const FramedView chosen = choose_view(job.scene(), bounds, aspect, options.view);
+                view = chosen.view, reason = chosen.reason;
+            }
+            tell_view(job, view, reason);
             request.camera = film_camera(job.scene(), bounds, options.film, aspect, view);
         }
     }
@@ -276,9 +321,9 @@ Result<PictureRequest> request_of(RenderJob& job, const RenderOptions& options, 
 void tell_choices(RenderJob& job, const RenderOptions& given) {
     const std::vector<Camera>& cameras = job.scene().cameras;
     const bool of_file = job.film.file_camera >= 0, whole = given.own_view() || given.views_parts() || given.film.turntable > 0;
-    const ViewSettings usual = front_view(job.scene(), given.view);
     job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
-                                        job.film.view.value_or(usual), usual, !of_file && !cameras.empty() && !whole));
+                                        job.film.view.value_or(front_view(job.scene(), given.view)), job.film.reason,
+                                        !of_file && !cameras.empty() && !whole));
     job.choices.push_back(fmt::format("lights: {}{}{}{}", job.light.all_lights().size(),
                                       job.light.lights.size() > job.film.choice.light->lights.size() ? ", added by default" : "",
                                       job.light.environment == nullptr ? ""
@@ -427,16 +472,17 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     if (!prepared) return fail(prepared.error().code, job.source.name + ": " + prepared.error().message);
     job.prepared = std::move(*prepared);
     job.prepare_ms = preparing.ms();
-    if (!moves) job.film.bounds = job.prepared->bounds();
+    if (!moves) job.film.bounds = options.film.turntable > 0 ? raster::framed_bounds(job.scene()) : job.prepared->bounds();
     const Bounds& bounds = job.film.bounds;
     const bool loader_said_so = job.source.file && job.source.file->triangles_drawn == 0;
-    if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: no vertex has finite coordinates");
+    if (bounds.empty && !loader_said_so) job.warnings.push_back("nothing to draw: nothing that can be seen has finite coordinates");
     const RenderOptions placed = in_drawn_world(options, job.source, usual);
     job.settings.shadow_fade = placed.settings.shadow_fade;
     if (const auto begun = begin_light(job, placed); !begun) return tl::unexpected(begun.error());
     auto request = request_of(job, placed, usual);
     if (!request) return tl::unexpected(request.error());
     if (const auto chosen = choose(job, placed, std::move(*request)); !chosen) return tl::unexpected(chosen.error());
+    if (job.film.framed && !options.kept_view) warn_of_left_out(job);
     tell_choices(job, options);
     return job;
 }
@@ -514,6 +560,7 @@ Result<void> change_job(RenderJob& job, const RenderOptions& flags, PictureSize 
     auto request = request_of(job, placed, usual);
     if (!request) return tl::unexpected(request.error());
     if (const auto chosen = choose(job, placed, std::move(*request)); !chosen) return chosen;
+    if (job.film.framed && !options.kept_view) warn_of_left_out(job);
     job.choices.clear();
     tell_choices(job, options);
     return {};

@@ -23,6 +23,7 @@ struct Film {
     int file_camera = -1;                   ///< index into Scene::cameras of the view; -1: another
     bool framed = false;                    ///< the camera is a view of the whole scene, fitted to it or kept
     std::optional<ViewSettings> view;       ///< its direction; none: kept
+    ViewReason reason = ViewReason::given;  ///< for that direction
     AutoOptions choice;                     ///< of auto_setup; with a light, the scene's and the flags'
     float sun_radius = 0, lamp_radius = 0;  ///< Light::shadow_radius of lights that have none
 };

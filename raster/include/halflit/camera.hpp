@@ -7,6 +7,7 @@
 #include "halflit/mesh.hpp"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -116,16 +117,29 @@ inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},  
 /// False if the camera shows nothing of the scene: all triangles, lines and points lie outside of its view, or turn a side to it that is
 /// not drawn. Ends at the first one that it shows, so it is quick in all but odd scenes.
 [[nodiscard]] HALFLIT_API bool shows_surface(const Scene& scene, const Camera& camera, float aspect);
-/// A view of a whole scene, and the camera that frame_scene() makes of it.
+/// Reason for which choose_view() takes a view.
+enum class ViewReason : std::uint8_t {
+    given,   ///< it was asked for
+    usual,   ///< nothing speaks for another
+    flat,    ///< most of the surface faces up or down: from farther above
+    hollow,  ///< holes or pockets are open at the top: from farther above
+    thin,    ///< upright and thin: nearly from the side that most of the surface faces
+    backs    ///< from the usual side only backs are seen, which are not drawn
+};
+
+/// A view of a whole scene, and the camera that frame_scene() makes of it, with room for the shadow below.
 struct FramedView {
     ViewSettings view;  ///< its direction, and how it is fitted
     Camera camera;      ///< that shows the scene whole
+    ViewReason reason = ViewReason::given;
 };
 
-/// The view of a scene without a camera: `view`, or with the usual angles, the one of a few that shows most, counted from the side that the
-/// scene faces (Scene::faces_back): flat things from farther above, thin upright ones from the front. It depends on the geometry alone, and
-/// the usual one is kept unless another is clearly better. Where frame_scene() would show nothing by it, the same from behind, from below,
-/// or from behind and below, whichever is the first that shows something. bounds: scene_bounds(scene).
+/// The view of a scene without a camera: `view`, or with the usual angles, one that suits the scene's shape, counted from the side that the
+/// scene faces (Scene::faces_back): flat things and those that are hollow at the top from farther above, thin upright ones from the front.
+/// It depends on the geometry alone and without jumps, so like scenes get like views. Where frame_scene() would show nothing by it, the
+/// same from behind, from below, or from behind and below, whichever is the first that shows something. Seen from above in perspective,
+/// with the usual margins, the scene is moved up and shown up to 6 % smaller where its contact shadow (Settings::contact_shadow) would
+/// reach the picture's border. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API FramedView choose_view(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
 
 }  // namespace halflit

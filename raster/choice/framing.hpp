@@ -1,0 +1,13 @@
+// Cameras that see the framed part of a scene.
+#pragma once
+
+#include "halflit/camera.hpp"
+#include "raster/scene/framed_part.hpp"
+
+namespace halflit::raster {
+
+/// frame_scene() of a scene whose part is known, with room for the contact shadow as in choose_view(). bounds: scene_bounds(scene).
+[[nodiscard]] Camera frame_with_shadow(const Scene& scene, const FramedPart& part, const Bounds& bounds, float aspect,
+                                       const ViewSettings& view);
+
+}  // namespace halflit::raster
