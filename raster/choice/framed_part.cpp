@@ -1,6 +1,7 @@
 #include "raster/choice/framed_part.hpp"
 
 #include "raster/detail/view_math.hpp"
+#include "raster/scene/grounds.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/scene/placed_box.hpp"
 #include "raster/scene/used_vertices.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -22,7 +24,6 @@ constexpr std::size_t kManyVertices = 24;   ///< from which on a triangle, three
 /// Clouds of scanners have noise: of points, one in so many may be left out, and the rest need not be as small.
 constexpr std::size_t kStrayPoints = 50;
 constexpr double kLeastCloud = 1.0 / 4.0;
-constexpr double kFlat = 0.01;  ///< height of a ground over its width
 constexpr int kBins = 256, kMostRounds = 8;
 
 /// A box in double; empty while low > high.
@@ -173,33 +174,15 @@ struct Placed {
     std::uint64_t vertices, triangles;
 };
 
-WideBox box_of(const std::vector<Placed>& placed, std::size_t without) {
-    WideBox box;
-    for (std::size_t i = 0; i < placed.size(); ++i)
-        if (i != without) box.add(placed[i].box);
-    return box;
-}
-
-bool is_ground(const Placed& ground, const WideBox& rest, std::uint64_t rest_triangles) {
-    const double width = std::max(ground.box.high[0] - ground.box.low[0], ground.box.high[2] - ground.box.low[2]);
-    return !rest.empty() && ground.box.high[1] - ground.box.low[1] <= kFlat * width && ground.triangles < rest_triangles &&
-           ground.box.high[1] <= 0.5 * (rest.low[1] + rest.high[1]);
-}
-
-/// Leaves out grounds, the largest first.
 void leave_out_grounds(std::vector<Placed>& placed) {
-    while (placed.size() > 1) {
-        const double whole = box_of(placed, placed.size()).radius();
-        std::size_t largest = 0;
-        std::uint64_t triangles = 0;
-        for (std::size_t i = 0; i < placed.size(); ++i) {
-            triangles += placed[i].triangles;
-            if (placed[i].box.radius() > placed[largest].box.radius()) largest = i;
-        }
-        const WideBox rest = box_of(placed, largest);
-        if (!(rest.radius() < kLeastShare * whole) || !is_ground(placed[largest], rest, triangles - placed[largest].triangles)) return;
-        placed.erase(placed.begin() + static_cast<std::ptrdiff_t>(largest));
+    std::vector<PlacedTriangles> boxes;
+    for (const Placed& one : placed) {
+        const double(&low)[3] = one.box.low, (&high)[3] = one.box.high;
+        boxes.push_back({{low[0], low[1], low[2]}, {high[0], high[1], high[2]}, one.triangles});
     }
+    std::vector<std::size_t> grounds = grounds_of(boxes);
+    std::sort(grounds.begin(), grounds.end(), std::greater<>());
+    for (const std::size_t ground : grounds) placed.erase(placed.begin() + static_cast<std::ptrdiff_t>(ground));
 }
 
 void leave_out_strays(std::vector<Placed>& placed) {

@@ -5,8 +5,7 @@
 // - Of a mesh, vertices outside of a box are left out if they have at most max(1, n / 1000) different positions of n, at least 8, or at
 //   most 3 of n, at least 24, and the box's radius is below 1/16 of the mesh's. Of points, up to n / 50 are left out, below 1/4.
 // - Instances are left out likewise, by the number of their vertices: at most max(3, n / 1000) of n, at least 24.
-// - A ground is left out if it is flat (its height at most a hundredth of its width), no higher than the middle of the rest, has fewer
-//   triangles than the rest, and the radius of the rest is below 1/16 of that of the whole. Of several, the largest goes first.
+// - Grounds are left out (scene/grounds.hpp).
 // - Instances that are marked as backdrops are left out.
 //
 // All else is framed as a whole.

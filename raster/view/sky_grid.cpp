@@ -1,6 +1,5 @@
 #include "raster/view/sky_grid.hpp"
 
-#include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/sky_lights.hpp"
 
@@ -11,163 +10,194 @@
 namespace halflit::raster {
 namespace {
 
-using Word = BitGrid::Word;
+static_assert(shading::kGridFade < kCoverMargin, "the scene's own shares would fade");
 
-constexpr int kStride = 2;  ///< voxels from one point of the lattice to the next
-/// Least distance of filled voxels from the border of the lattice, in spacings of its points; the border may be half a voxel further in.
-constexpr float kLeastMargin = (kFreeVoxels - 1.5f) / kStride;
-static_assert(shading::kGridFade < kLeastMargin, "the scene's own shares would fade");
+/// Factor on covers, as those along a way through a slanted wall may add up to a little less than 1.
+constexpr float kTight = 1.1f;
 
-/// The bit of matrix[r] at c goes to that of matrix[c] at r.
-void transpose(std::array<Word, 64>& matrix) {
-    Word mask = 0x00000000FFFFFFFFu;
-    for (unsigned step = 32; step != 0; step >>= 1, mask ^= mask << step)
-        for (unsigned r = 0; r < 64; r = ((r | step) + 1) & ~step) {
-            const Word swapped = ((matrix[r] >> step) ^ matrix[r | step]) & mask;
-            matrix[r] ^= swapped << step;
-            matrix[r | step] ^= swapped;
-        }
-}
+/// Rows along one axis, which lie in layers: numbers of them, and steps in memory.
+struct Rows {
+    int length, rows, layers;
+    std::ptrdiff_t row_step, layer_step;
+};
 
-/// Finds the voxels that something hides one way, which goes on by one layer at a time; bit, row: how far it goes across a layer meanwhile.
-void sweep(const BitGrid& filled, double bit, double row, bool from_last, BitGrid& hidden) {
-    const auto shift = [](double slope, int k) {
-        return static_cast<int>(std::floor((k + 1) * slope + 0.5)) - static_cast<int>(std::floor(k * slope + 0.5));
-    };
-    for (int k = 0; k < filled.layers; ++k) {
-        const int layer = from_last ? filled.layers - 1 - k : k, next = from_last ? layer + 1 : layer - 1;
-        if (k == 0) {
-            std::fill_n(hidden.layer(layer), hidden.rows, 0);
-            continue;
-        }
-        const int bits = shift(bit, k - 1), rows = shift(row, k - 1);
-        const int first = std::max(0, -rows), end = std::min(filled.rows, filled.rows - rows);
-        const Word* const solid = filled.layer(next);
-        const Word* const before = hidden.layer(next);
-        Word* const out = hidden.layer(layer);
-        std::fill_n(out, first, 0);
-        std::fill(out + end, out + filled.rows, 0);
-        if (bits > 0)
-            for (int r = first; r < end; ++r) out[r] = (solid[r + rows] | before[r + rows]) >> 1;
-        else if (bits < 0)
-            for (int r = first; r < end; ++r) out[r] = (solid[r + rows] | before[r + rows]) << 1;
-        else
-            for (int r = first; r < end; ++r) out[r] = solid[r + rows] | before[r + rows];
-    }
-}
+/// The covers of a grid as rows of each of their numbers, with rows along x in layers of z, or along y in layers of x.
+struct CoverRows {
+    static constexpr std::size_t kParts = 7;
 
-/// The hidden voxels of all directions. Rows of the grid lie along x, in layers of z.
-class HiddenVoxels {
-public:
-    HiddenVoxels(const BitGrid& filled, const int (&size)[3])
-        : filled_(filled),
-          by_y_(size[1], size[2]),
-          by_x_(size[0], size[2]),
-          hidden_by_z_(size[2], size[1]),
-          hidden_by_y_(size[1], size[2]),
-          hidden_by_x_(size[0], size[2]) {
-        for (int axis = 0; axis < 3; ++axis) size_[axis] = size[axis];
-        for (int z = 0; z < size[2]; ++z) {
-            std::array<Word, 64> plane{};
-            for (int y = 0; y < size[1]; ++y) plane[static_cast<std::size_t>(y)] = by_y_.row(y, z) = filled.row(z, y);
-            transpose(plane);
-            for (int x = 0; x < size[0]; ++x) by_x_.row(x, z) = plane[static_cast<std::size_t>(x)];
-        }
-    }
+    Rows place;
+    std::array<std::vector<float>, kParts> parts;
+    std::vector<bool> filled;  ///< of each row: some cover is not 0
 
-    /// Calls keep(row, bits) for each row of the lattice, which are those of every kStride-th layer and row. Bits: what is hidden this way.
-    template <class Keep>
-    void each_row(Vec3d towards, const Keep& keep) {
-        const double x = towards.x, y = towards.y, z = towards.z, ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
-        int at = 0;
-        if (az >= ax && az >= ay) {
-            sweep(filled_, x / az, y / az, z > 0.0, hidden_by_z_);
-            for (int k = 0; k < size_[2]; k += kStride)
-                for (int j = 0; j < size_[1]; j += kStride) keep(at++, hidden_by_z_.row(k, j));
-        } else if (ay >= ax) {
-            sweep(by_y_, x / ay, z / ay, y > 0.0, hidden_by_y_);
-            for (int k = 0; k < size_[2]; k += kStride)
-                for (int j = 0; j < size_[1]; j += kStride) keep(at++, hidden_by_y_.row(j, k));
-        } else {
-            sweep(by_x_, y / ax, z / ax, x > 0.0, hidden_by_x_);
-            for (int k = 0; k < size_[2]; k += kStride) {
-                std::array<Word, 64> plane{};
-                for (int i = 0; i < size_[0]; ++i) plane[static_cast<std::size_t>(i)] = hidden_by_x_.row(i, k);
-                transpose(plane);
-                for (int j = 0; j < size_[1]; j += kStride) keep(at++, plane[static_cast<std::size_t>(j)]);
+    CoverRows(const CoverGrid& grid, bool along_y) {
+        const int(&size)[3] = grid.size;
+        const std::ptrdiff_t step[3] = {1, size[0], std::ptrdiff_t{size[0]} * size[1]};
+        const int along = along_y ? 1 : 0, across = along_y ? 2 : 1, layer = along_y ? 0 : 2;
+        place = {size[along], size[across], size[layer], size[along], std::ptrdiff_t{size[along]} * size[across]};
+        for (std::vector<float>& part : parts) part.resize(grid.covers.size());
+        std::size_t out = 0;
+        for (int k = 0; k < place.layers; ++k)
+            for (int r = 0; r < place.rows; ++r) {
+                bool any = false;
+                if (along_y || grid.rows[grid.row(r, k)])
+                    for (int i = 0; i < place.length; ++i) {
+                        const Cover& cover = grid.covers[static_cast<std::size_t>(i * step[along] + r * step[across] + k * step[layer])];
+                        const float numbers[kParts] = {cover.facing[0], cover.facing[1], cover.facing[2], cover.both[0],
+                                                       cover.both[1],   cover.both[2],   cover.back};
+                        for (std::size_t p = 0; p < kParts; ++p) {
+                            parts[p][out + static_cast<std::size_t>(i)] = numbers[p];
+                            any |= numbers[p] != 0.0f;
+                        }
+                    }
+                filled.push_back(any);
+                out += static_cast<std::size_t>(place.length);
             }
+    }
+};
+
+/// Follows one direction through a grid.
+class Sweep {
+public:
+    Sweep(const CoverRows& covers, const Rows& rows, const float (&direction)[3]) : covers_(covers), rows_(rows) {
+        for (int k = 0; k < 3; ++k) towards_[k] = direction[k], size_[k] = std::abs(direction[k]);
+    }
+
+    /// along, across: how far the direction goes from a layer to the next, at most 1. Writes the share that is hidden at each point.
+    void run(float along, float across, bool from_last, float* hidden) {
+        const std::size_t stride = static_cast<std::size_t>(rows_.length) + 2, area = stride * (static_cast<std::size_t>(rows_.rows) + 2);
+        std::vector<float> before(area), after(area), mixed(stride);
+        const int first = along < 0.0f ? 0 : 1;  // of the two points that are mixed, in rows with a point before the first
+        const float u = along < 0.0f ? along + 1.0f : along, v = across < 0.0f ? across + 1.0f : across;
+        const std::size_t below = across < 0.0f ? 0 : 1;
+        bool any = false;
+        for (int k = 0; k < rows_.layers; ++k) {
+            const int layer = from_last ? rows_.layers - 1 - k : k;
+            for (int r = 0; r < rows_.rows; ++r) {
+                const std::ptrdiff_t at = layer * rows_.layer_step + r * rows_.row_step;
+                float* const out = hidden + at;
+                float* const next = &after[(static_cast<std::size_t>(r) + 1) * stride + 1];
+                if (any) {
+                    const float* const lower = &before[(static_cast<std::size_t>(r) + below) * stride];
+                    const float* const upper = lower + stride;
+                    for (std::size_t i = 0; i < stride; ++i) mixed[i] = lower[i] + (upper[i] - lower[i]) * v;
+                    const float* const from = &mixed[static_cast<std::size_t>(first)];
+                    for (int i = 0; i < rows_.length; ++i) out[i] = from[i] + (from[i + 1] - from[i]) * u;
+                } else {
+                    std::fill_n(out, rows_.length, 0.0f);
+                }
+                if (covers_.filled[static_cast<std::size_t>(at / covers_.place.row_step)])
+                    add_covers(at, out, next);
+                else
+                    std::copy_n(out, rows_.length, next);
+            }
+            any = true;
+            before.swap(after);
         }
     }
 
 private:
-    const BitGrid& filled_;
-    BitGrid by_y_, by_x_;  ///< the same in layers of y, and in layers of x with rows along y
-    BitGrid hidden_by_z_, hidden_by_y_, hidden_by_x_;
-    int size_[3];
+    void add_covers(std::ptrdiff_t at, const float* from, float* to) const {
+        const float* part[CoverRows::kParts];
+        for (std::size_t p = 0; p < CoverRows::kParts; ++p) part[p] = covers_.parts[p].data() + at;
+        const float x = towards_[0], y = towards_[1], z = towards_[2], ax = size_[0], ay = size_[1], az = size_[2];
+        for (int i = 0; i < rows_.length; ++i) {
+            const float front = part[0][i] * x + part[1][i] * y + part[2][i] * z;
+            const float rest = part[3][i] * ax + part[4][i] * ay + part[5][i] * az;
+            const float sum = from[i] + (front > 0.0f ? front : -part[6][i] * front) + rest;
+            to[i] = sum < 1.0f ? sum : 1.0f;
+        }
+    }
+
+    const CoverRows& covers_;
+    Rows rows_;
+    float towards_[3], size_[3];
 };
 
-/// Ways about a direction, a third of a turn from each other: so the edges of what hides it are soft. Not unit.
-std::array<Vec3d, shading::kGridWays> ways_about(Vec3d towards, int direction) {
-    const Vec3d side = std::abs(towards.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
-    const Vec3d u = cross(side, towards) * (1.0 / length(cross(side, towards))), v = cross(towards, u);
-    std::array<Vec3d, shading::kGridWays> ways;
-    for (int k = 0; k < shading::kGridWays; ++k) {
-        const SinCos turn = sin_cos(2.0 * kPi * (static_cast<double>(k) / shading::kGridWays + 0.618 * direction));
-        ways[static_cast<std::size_t>(k)] = towards + (u * turn.cos + v * turn.sin) * shading::kGridWayTangent;
+std::vector<float> hidden_shares(const CoverGrid& grid) {
+    const std::size_t count = grid.covers.size();
+    if (count == 0) return {};
+    const CoverRows along_x(grid, false), along_y(grid, true);
+    const Rows &by_z = along_x.place, &by_x = along_y.place;
+    const Rows by_y{by_z.length, by_z.layers, by_z.rows, by_z.layer_step, by_z.row_step};
+    std::vector<float> shares(count * shading::kGridDirections), turned(count);
+    float* out = shares.data();
+    for (const Vec3d& d : shading::sky_directions(shading::kGridDirections)) {
+        const double ax = absolute(d.x), ay = absolute(d.y), az = absolute(d.z), most = std::max({ax, ay, az});
+        const float x = static_cast<float>(d.x / most), y = static_cast<float>(d.y / most), z = static_cast<float>(d.z / most);
+        const float direction[3] = {x * kTight, y * kTight, z * kTight};
+        if (most == az) {
+            Sweep(along_x, by_z, direction).run(x, y, z > 0.0f, out);
+        } else if (most == ay) {
+            Sweep(along_x, by_y, direction).run(x, z, y > 0.0f, out);
+        } else {
+            Sweep(along_y, by_x, direction).run(y, z, x > 0.0f, turned.data());
+            const float* from = turned.data();
+            const std::ptrdiff_t row = grid.size[0], layer = row * grid.size[1];
+            for (int i = 0; i < by_x.layers; ++i)
+                for (int k = 0; k < by_x.rows; ++k)
+                    for (int j = 0; j < by_x.length; ++j) out[k * layer + j * row + i] = *from++;
+        }
+        out += count;
     }
-    return ways;
+    return shares;
 }
 
-SkyGrid grid_of(const FilledVoxels& voxels) {
-    SkyGrid grid;
-    if (voxels.bits.words.empty()) return grid;
-    const int(&size)[3] = voxels.size;
-    int points[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        points[axis] = (size[axis] + kStride - 1) / kStride;
-        grid.place.size[axis] = points[axis];
-        grid.place.origin[axis] = static_cast<float>(voxels.origin[axis] + 0.5 / voxels.per_length);
+/// Terms of the light that is hidden, from the hidden shares of each direction.
+std::vector<float> hidden_terms(const std::vector<float>& shares, std::span<const float> lights) {
+    constexpr std::size_t kTerms = shading::kGridTerms, kTogether = 32;
+    const std::vector<Vec3d> directions = shading::sky_directions(shading::kGridDirections);
+    std::array<std::array<float, kTerms>, shading::kGridDirections> factors{};
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+        const double towards[3] = {directions[d].x, directions[d].y, directions[d].z};
+        double terms[kTerms] = {};
+        shading::add_grid_light(double{lights[d]}, towards, terms);
+        for (std::size_t k = 0; k < kTerms; ++k) factors[d][k] = static_cast<float>(terms[k]);
     }
-    grid.place.per_length = static_cast<float>(voxels.per_length / kStride);
-    grid.masks.resize(std::size_t{2} * static_cast<std::size_t>(points[0]) * static_cast<std::size_t>(points[1]) *
-                      static_cast<std::size_t>(points[2]));
-    // A row's words: two bits of each direction, those of the second half from word 32 on.
-    const int rows = points[1] * points[2];
-    std::vector<std::array<Word, 64>> counts(static_cast<std::size_t>(rows));
-    HiddenVoxels hidden(voxels.bits, size);
-    int direction = 0;
-    for (const Vec3d& towards : shading::sky_directions(shading::kGridDirections)) {
-        const auto low_bit = static_cast<std::size_t>(32 * (direction / shading::kGridInWord) + 2 * (direction % shading::kGridInWord));
-        for (const Vec3d& way : ways_about(towards, direction))
-            hidden.each_row(way, [&](int row, Word word) {
-                Word &ones = counts[static_cast<std::size_t>(row)][low_bit], &twos = counts[static_cast<std::size_t>(row)][low_bit + 1];
-                twos ^= ones & word;
-                ones ^= word;
-            });
-        ++direction;
-    }
-    std::int32_t* out = grid.masks.data();
-    for (std::array<Word, 64>& columns : counts) {
-        if (std::all_of(columns.begin(), columns.end(), [](Word word) { return word == 0; })) {
-            out += 2 * points[0];
-            continue;
+    const std::size_t count = shares.size() / directions.size();
+    std::vector<float> out(count * kTerms);
+    for (std::size_t first = 0; first < count; first += kTogether) {
+        const std::size_t end = std::min(kTogether, count - first);
+        float sums[kTerms][kTogether] = {};
+        bool any = false;
+        for (std::size_t d = 0; d < directions.size(); ++d) {
+            const float* const from = &shares[d * count + first];
+            float most = 0.0f;
+            for (std::size_t i = 0; i < end; ++i) most = most > from[i] ? most : from[i];
+            if (!(most > 0.0f) || lights[d] == 0.0f) continue;
+            any = true;
+            for (std::size_t k = 0; k < kTerms; ++k) {
+                const float factor = factors[d][k];
+                for (std::size_t i = 0; i < end; ++i) sums[k][i] += from[i] * factor;
+            }
         }
-        transpose(columns);
-        for (int x = 0; x < points[0]; ++x) {
-            const Word words = columns[static_cast<std::size_t>(kStride * x)];
-            *out++ = static_cast<std::int32_t>(static_cast<std::uint32_t>(words));
-            *out++ = static_cast<std::int32_t>(static_cast<std::uint32_t>(words >> 32));
-        }
+        if (!any) continue;
+        for (std::size_t i = 0; i < end; ++i)
+            for (std::size_t k = 0; k < kTerms; ++k) out[(first + i) * kTerms + k] = sums[k][i];
     }
-    return grid;
+    return out;
 }
 
 }  // namespace
 
-void make_sky_grid(const FilledVoxels& voxels, SkyGrid& grid) {
-    if (grid.revision == voxels.revision) return;
-    grid = grid_of(voxels);
-    grid.revision = voxels.revision;
+shading::SkyGridPlan make_sky_grid(const CoverGrid& covers, std::span<const shading::LightPlan> lights, SkyGrid& grid) {
+    if (grid.revision != covers.revision) {
+        grid = {covers.revision, hidden_shares(covers), {}, {}};
+    }
+    if (grid.hidden_shares.empty()) return {};
+    std::vector<float> brightness(shading::kGridDirections, 0.0f);  // black ones are left out of the list
+    for (const shading::LightPlan& light : lights) brightness[static_cast<std::size_t>(light.source)] = light.brightness;
+    if (brightness != grid.lights) {
+        grid.terms = hidden_terms(grid.hidden_shares, brightness);
+        grid.lights = std::move(brightness);
+    }
+    shading::SkyGridPlan plan;
+    plan.hidden = grid.terms.data();
+    for (int axis = 0; axis < 3; ++axis) {
+        plan.size[axis] = covers.size[axis];
+        plan.origin[axis] = static_cast<float>(covers.origin[axis]);
+    }
+    plan.per_length = static_cast<float>(covers.per_length);
+    return plan;
 }
 
 }  // namespace halflit::raster

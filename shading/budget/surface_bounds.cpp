@@ -327,7 +327,7 @@ double sky_sum_error(const ShadingPlan& plan) { return 2.4e-7 * (static_cast<dou
 }  // namespace
 
 double sky_share_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, double normal_error, double most) {
-    if (plan.sky_grid.masks == nullptr) {
+    if (plan.sky_grid.hidden == nullptr) {
         const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
         return costs.absolute((sky_sum_error(plan) + slope * normal_error) * most);
     }
@@ -373,7 +373,7 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
             // in reach.
             codes += sky_share_codes(costs, plan, material, s.normal_error, s.albedo * diffuse.most);
             const double focused = 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error;
-            if (plan.sky_grid.masks == nullptr) codes += costs.absolute(share * (sky_sum_error(plan) + focused) * mirrored.most);
+            if (plan.sky_grid.hidden == nullptr) codes += costs.absolute(share * (sky_sum_error(plan) + focused) * mirrored.most);
         }
         diffuse_light += diffuse.most;
         shiny += mirrored.most;

@@ -1,0 +1,278 @@
+#include "raster/view/cover_grid.hpp"
+
+#include "raster/scene/grounds.hpp"
+#include "raster/scene/instance_material.hpp"
+#include "sh/mat4.hpp"
+#include "sh/time_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::raster {
+namespace {
+
+constexpr float kPiece = 0.75f;         ///< longest side of a piece, spacings
+constexpr float kBehind = 0.5f;         ///< from a single-sided triangle to where it counts, spacings
+constexpr float kThroughGlass = 0.75f;  ///< of the light that a surface transmits; the rest is bent aside
+constexpr double kFoot = 0.02;         ///< height of the foot over that of the scene
+constexpr double kBeside = 0.5;         ///< of a large ground, around what stands on it, over the longest side of that
+constexpr double kLeastFoot = 0.5;     ///< the same, spacings
+
+/// Pieces after which large triangles are cut no more: a second or so.
+constexpr std::uint64_t kMostPieces = std::uint64_t{1} << 26, kBetweenLooks = std::uint64_t{1} << 18, kUnitsAPiece = 16;
+
+/// Areas across the axes by the six directions that they face; of double-sided triangles, all of them once more.
+struct Areas {
+    float ahead[3], behind[3], double_sided, unused;
+};
+
+struct Triangle {
+    Vec3f a, b, c;
+};
+
+class Collector {
+public:
+    Collector(const CoverGrid& grid, double foot_height)
+        : size_{grid.size[0], grid.size[1], grid.size[2]},
+          foot_(kCoverMargin + static_cast<float>(std::max(kLeastFoot, kFoot * foot_height))),
+          areas(static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1]) * static_cast<std::size_t>(grid.size[2])) {}
+
+    void start(float opacity, bool mirrored, bool double_sided) {
+        half_opacity_ = mirrored ? -0.5f * opacity : 0.5f * opacity;
+        double_sided_ = double_sided;
+    }
+    void add(const Triangle& t) {
+        if (pieces_ >= next_look_) {
+            check_time();
+            charge_work(kUnitsAPiece * kBetweenLooks);
+            next_look_ = pieces_ + kBetweenLooks;
+        }
+        // Comparisons are false for what is not a number.
+        if (!(std::min({t.a.y, t.b.y, t.c.y}) > foot_)) add_foot(t);
+        const Vec3f area = cross(t.b - t.a, t.c - t.a) * half_opacity_;
+        const float squared = dot(area, area);
+        if (!(squared > 1e-30f && squared < 1e30f)) return;
+        const Vec3f behind = double_sided_ ? Vec3f{0, 0, 0} : area * (kBehind / std::sqrt(squared));
+        cut({t.a - behind, t.b - behind, t.c - behind}, area);
+    }
+
+private:
+    void cut(const Triangle& t, Vec3f area) {
+        const Vec3f ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
+        const float of_ab = dot(ab, ab), of_bc = dot(bc, bc), of_ca = dot(ca, ca), longest = std::max({of_ab, of_bc, of_ca});
+        if (!(longest > kPiece * kPiece) || pieces_ > kMostPieces) {
+            add_piece((t.a + t.b + t.c) * (1.0f / 3.0f), area);
+            return;
+        }
+        const auto outside = [&](float a, float b, float c, int axis) {
+            return std::max({a, b, c}) <= -1.0f || std::min({a, b, c}) >= static_cast<float>(size_[axis]);
+        };
+        if (outside(t.a.x, t.b.x, t.c.x, 0) || outside(t.a.y, t.b.y, t.c.y, 1) || outside(t.a.z, t.b.z, t.c.z, 2)) return;
+        ++pieces_;
+        const Vec3f half = area * 0.5f;
+        if (longest == of_ab) {
+            const Vec3f m = (t.a + t.b) * 0.5f;
+            cut({t.a, m, t.c}, half), cut({m, t.b, t.c}, half);
+        } else if (longest == of_bc) {
+            const Vec3f m = (t.b + t.c) * 0.5f;
+            cut({t.a, t.b, m}, half), cut({t.a, m, t.c}, half);
+        } else {
+            const Vec3f m = (t.c + t.a) * 0.5f;
+            cut({t.a, t.b, m}, half), cut({m, t.b, t.c}, half);
+        }
+    }
+    void add_piece(Vec3f at, Vec3f area) {
+        ++pieces_;
+        const float last[3] = {static_cast<float>(size_[0] - 1), static_cast<float>(size_[1] - 1), static_cast<float>(size_[2] - 1)};
+        if (!(at.x >= 0.0f && at.x < last[0] && at.y >= 0.0f && at.y < last[1] && at.z >= 0.0f && at.z < last[2])) return;
+        const int x = static_cast<int>(at.x), y = static_cast<int>(at.y), z = static_cast<int>(at.z);
+        const float u = at.x - static_cast<float>(x), v = at.y - static_cast<float>(y), w = at.z - static_cast<float>(z);
+        const auto positive = [](float a) { return a > 0.0f ? a : 0.0f; };
+        const float l1 = std::abs(area.x) + std::abs(area.y) + std::abs(area.z);
+        const float part[8] = {positive(area.x), positive(area.y), positive(area.z), positive(-area.x), positive(-area.y), positive(-area.z),
+                               double_sided_ ? l1 : 0.0f, 0.0f};
+        Areas* const first = &areas[static_cast<std::size_t>((z * size_[1] + y) * size_[0] + x)];
+        const std::ptrdiff_t row = size_[0], layer = row * size_[1];
+        const auto share = [&](Areas* to, float weight) {
+            float* const out = to->ahead;
+            for (int k = 0; k < 8; ++k) out[k] += part[k] * weight;
+        };
+        const float far_w = w, near_w = 1.0f - w, near_v = 1.0f - v, near_u = 1.0f - u;
+        share(first, near_u * near_v * near_w), share(first + 1, u * near_v * near_w);
+        share(first + row, near_u * v * near_w), share(first + row + 1, u * v * near_w);
+        Areas* const next = first + layer;
+        share(next, near_u * near_v * far_w), share(next + 1, u * near_v * far_w);
+        share(next + row, near_u * v * far_w), share(next + row + 1, u * v * far_w);
+    }
+    /// Adds the part below the foot's height.
+    void add_foot(const Triangle& t) {
+        const Vec3f corners[3] = {t.a, t.b, t.c};
+        const auto add = [&](float x, float z) {
+            if (!(std::abs(x) < 1e9f && std::abs(z) < 1e9f)) return;
+            foot.low[0] = std::min(foot.low[0], x), foot.high[0] = std::max(foot.high[0], x);
+            foot.low[1] = std::min(foot.low[1], z), foot.high[1] = std::max(foot.high[1], z);
+        };
+        for (int k = 0; k < 3; ++k) {
+            const Vec3f &p = corners[k], &q = corners[(k + 1) % 3];
+            if (p.y <= foot_) add(p.x, p.z);
+            if ((p.y <= foot_) == (q.y <= foot_)) continue;
+            const float part = (foot_ - p.y) / (q.y - p.y);
+            add(p.x + (q.x - p.x) * part, p.z + (q.z - p.z) * part);
+        }
+    }
+
+    int size_[3];
+    float foot_, half_opacity_ = 0.5f;
+    bool double_sided_ = false;
+    std::uint64_t pieces_ = 0, next_look_ = kBetweenLooks;
+
+public:
+    std::vector<Areas> areas;
+    Foot foot;
+};
+
+/// Share of the light that meets a surface which does not pass. A mask's is the mean alpha of its texture.
+float opacity_of(const Scene& scene, const Material& material) {
+    float opacity = 1.0f;
+    if (material.alpha_mode != AlphaMode::opaque) {
+        opacity = std::clamp(material.base_color.w, 0.0f, 1.0f);
+        const int index = material.textures[TextureSlot::base_color].texture;
+        const Texture* const texture =
+            index >= 0 && static_cast<std::size_t>(index) < scene.textures.size() ? &scene.textures[static_cast<std::size_t>(index)] : nullptr;
+        if (texture != nullptr && !texture->levels().empty())
+            opacity *= static_cast<float>(texture->data()[4 * texture->levels().back().offset + 3]) * (1.0f / 65535.0f);
+        else if (material.alpha_mode == AlphaMode::mask)
+            opacity = material.base_color.w >= material.alpha_cutoff ? 1.0f : 0.0f;
+    }
+    return material.transmits() ? opacity * (1.0f - kThroughGlass * material.transmission) : opacity;
+}
+
+void collect_all(const PreparedData& prepared, const CoverGrid& grid, Collector& collector) {
+    TimeCheck check;
+    constexpr std::size_t kMostKept = std::size_t{1} << 18;  // vertices; more would take much memory
+    const Scene& scene = prepared.scene();
+    std::vector<Vec3f> places;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (!counts_for_views(scene, instance)) continue;
+        const Mesh& mesh = prepared.source_mesh(instance.mesh);
+        const Material& material = prepared.material(prepared.material_of(i));
+        const float opacity = opacity_of(scene, material);
+        if (mesh.topology != Topology::triangles || !(opacity > 0.0f)) continue;
+        collector.start(opacity, determinant3(instance.world_from_object) < 0.0, material.double_sided);
+        const auto place = [&](std::size_t vertex) {
+            const Vec3f p = transform_point(instance.world_from_object, mesh.positions[vertex]);
+            const auto along = [&](float at, int axis) { return static_cast<float>((double{at} - grid.origin[axis]) * grid.per_length); };
+            return Vec3f{along(p.x, 0), along(p.y, 1), along(p.z, 2)};
+        };
+        const bool kept = mesh.positions.size() <= kMostKept && mesh.positions.size() < mesh.indices.size();
+        places.clear();
+        for (std::size_t v = 0; kept && v < mesh.positions.size(); ++v) places.push_back(place(v));
+        const auto corner = [&](std::size_t k) { return kept ? places[mesh.indices[k]] : place(mesh.indices[k]); };
+        for (std::size_t k = 0; k + 3 <= mesh.indices.size(); k += 3) {
+            check();
+            collector.add({corner(k), corner(k + 1), corner(k + 2)});
+        }
+    }
+}
+
+/// What the areas hide, and where that lies in the mean.
+void find_covers(const std::vector<Areas>& areas, CoverGrid& grid) {
+    grid.covers.resize(areas.size());
+    grid.rows.assign(static_cast<std::size_t>(grid.size[1]) * static_cast<std::size_t>(grid.size[2]), false);
+    double sum[2] = {0, 0}, all = 0;
+    const Areas* from = areas.data();
+    Cover* to = grid.covers.data();
+    for (int z = 0; z < grid.size[2]; ++z)
+        for (int y = 0; y < grid.size[1]; ++y)
+            for (int x = 0; x < grid.size[0]; ++x, ++from, ++to) {
+                float total = 0.0f;
+                for (int k = 0; k < 3; ++k) total += from->ahead[k] + from->behind[k];
+                if (!(total > 0.0f)) continue;
+                for (int k = 0; k < 3; ++k) {
+                    to->facing[k] = from->ahead[k] - from->behind[k];
+                    to->both[k] = std::min(from->ahead[k], from->behind[k]);
+                }
+                to->back = from->double_sided / total;
+                grid.rows[grid.row(y, z)] = true;
+                const double weight = std::min(1.0, double{total});
+                sum[0] += x * weight, sum[1] += z * weight, all += weight;
+            }
+    if (!(all > 0.0)) {
+        grid.covers.clear();
+        std::fill_n(grid.size, 3, 0);
+        return;
+    }
+    for (const int k : {0, 1}) grid.middle[k] = sum[k] / all;
+}
+
+/// What the lattice lies around: all that views are framed by, or what stands on a large ground, and a part of that.
+struct Part {
+    Vec3d low, high;
+    bool whole = true;
+};
+Part part_of(const PreparedData& prepared) {
+    const Bounds& all = prepared.framed_bounds();
+    Part part{to_double(all.min), to_double(all.max)};
+    const std::vector<Instance>& instances = prepared.scene().instances;
+    std::vector<PlacedTriangles> boxes;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const Bounds& box = prepared.instance_bounds()[i];
+        if (box.empty || !counts_for_views(prepared.scene(), instances[i])) continue;
+        boxes.push_back({{box.min.x, box.min.y, box.min.z},
+                         {box.max.x, box.max.y, box.max.z},
+                         prepared.source_mesh(instances[i].mesh).indices.size() / 3});
+    }
+    std::vector<std::size_t> grounds = grounds_of(boxes);
+    if (grounds.empty()) return part;
+    std::sort(grounds.begin(), grounds.end());
+    Vec3d low{1e300, 1e300, 1e300}, high = low * -1.0;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (std::binary_search(grounds.begin(), grounds.end(), i)) continue;
+        const PlacedTriangles& box = boxes[i];
+        low = {std::min(low.x, box.low[0]), std::min(low.y, box.low[1]), std::min(low.z, box.low[2])};
+        high = {std::max(high.x, box.high[0]), std::max(high.y, box.high[1]), std::max(high.z, box.high[2])};
+    }
+    const Vec3d side = high - low;
+    const double beside = kBeside * std::max({side.x, side.y, side.z});
+    part.low = {std::max(part.low.x, low.x - beside), std::max(part.low.y, low.y - beside), std::max(part.low.z, low.z - beside)};
+    part.high = {std::min(part.high.x, high.x + beside), high.y, std::min(part.high.z, high.z + beside)};
+    part.whole = false;
+    return part;
+}
+
+CoverGrid cover_grid(const PreparedData& scene) {
+    CoverGrid grid;
+    if (scene.framed_bounds().empty) return grid;
+    const Part part = part_of(scene);
+    const Vec3d side = part.high - part.low, middle = (part.low + part.high) * 0.5;
+    const double longest = std::max({side.x, side.y, side.z});
+    if (!(longest > 1e-6 * length(middle) && longest > 1e-30 && longest < 1e30)) return grid;
+    const double spacing = longest / (kMostCoverPoints - 1 - 2 * double{kCoverMargin});
+    grid.per_length = 1.0 / spacing;
+    grid.lowest = part.low.y;
+    const double lows[3] = {part.low.x, part.low.y, part.low.z}, sides[3] = {side.x, side.y, side.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        grid.origin[axis] = lows[axis] - double{kCoverMargin} * spacing;
+        grid.width[axis] = sides[axis] / spacing;
+        const double points = std::ceil(grid.width[axis] - 1e-9) + 2 * double{kCoverMargin} + 1;
+        grid.size[axis] = std::min(kMostCoverPoints, static_cast<int>(points));
+    }
+    Collector collector(grid, grid.width[1]);
+    collect_all(scene, grid, collector);
+    if (part.whole) grid.foot = collector.foot;
+    find_covers(collector.areas, grid);
+    return grid;
+}
+
+}  // namespace
+
+void make_cover_grid(const PreparedData& scene, CoverGrid& grid) {
+    SceneRevision revision = scene.revision();
+    revision.lights = 0;
+    if (grid.revision == revision) return;
+    grid = cover_grid(scene);
+    grid.revision = revision;
+}
+
+}  // namespace halflit::raster
