@@ -236,13 +236,13 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
     constexpr int kRows = 96, kRowsOfGrid = 16;  // of the cells that are given to the directions
     const bool in_grid = settings.sky_shadows == kSkyShadowsAuto;
     if (in_grid) make_cover_grid(scene, memory.covers);
-    if (in_grid && memory.covers.covers.empty()) return SkyPlan{};
+    if (in_grid && memory.covers.empty()) return SkyPlan{};
     SkyPlan plan;
     plan.directions = in_grid ? shading::kGridDirections : settings.sky_shadows;
     plan.lights = shading::plan_lights(
         shading::sky_lights(plan.directions, in_grid ? kRowsOfGrid : kRows, light.environment.get(), light.ambient, memory.sky_cells));
     if (in_grid) {
-        plan.grid = make_sky_grid(memory.covers, plan.lights, memory.sky_grid);
+        plan.grid = make_sky_grid(memory.covers, plan.lights, *memory.kernels, memory.sky_grid);
         return plan;
     }
     Settings of_sky = settings;
@@ -265,7 +265,7 @@ ContactShadow plan_contact_shadow(const PreparedData& scene, const Camera& camer
                                   FramePlanMemory& memory) {
     if (settings.contact_shadow == 0.0f || settings.shadows == ShadowMode::off || has_shadow_catcher(scene)) return {};
     make_cover_grid(scene, memory.covers);
-    make_contact_map(memory.covers, memory.contact_map);
+    make_contact_map(memory.covers, *memory.kernels, memory.contact_map);
     return {memory.contact_map.map, camera, width, height, settings.contact_shadow};
 }
 

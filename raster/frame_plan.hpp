@@ -55,6 +55,7 @@ struct FramePlanMemory {
     std::map<std::array<double, 3>, double> light_distances;
     /// Texels of all shadow maps, one map after the other. Without a value the plan is only read: its maps have no texels.
     std::optional<RawBuffer<float>> shadow_texels;
+    const RasterKernels* kernels = &raster_kernels(Isa::scalar);  ///< of the call
     CoverGrid covers;
     SkyGrid sky_grid;
     KeptContactMap contact_map;

@@ -15,79 +15,56 @@ constexpr double kUnstable = 0.3;  ///< of a scene's width: so far from its foot
 /// A foot narrower than this, of the scene's width, has a paler shadow: most of what stands on a point floats, but balls do not.
 constexpr double kNarrow = 0.35, kPalest = 0.33;
 
-constexpr int kSide = 64;       ///< cells on a side of the map, as wide as the lattice's spacing
-constexpr int kDirections = 48;
+constexpr int kSide = kGroundCells;  ///< cells on a side of the map, as wide as the lattice's spacing
+constexpr int kDirections = 40;
 constexpr double kReach = 0.3;         ///< within which the shadow fades beside the foot, over the longest side
 constexpr double kPictureFade = 0.04;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
 
-/// Adds what the covers of a layer hide from the ground. x, z: from the ground's cells to those of the layer that hide them.
-class LayerShadow {
-public:
-    explicit LayerShadow(const CoverGrid& grid) : grid_(&grid), stride_(static_cast<std::size_t>(grid.size[0]) + 2) {
-        shares_.resize(stride_ * (static_cast<std::size_t>(grid.size[2]) + 2));
-    }
-    /// The shares of a layer. Returns false if all are 0.
-    bool start(int y, const float (&direction)[3], float factor) {
-        bool any = false;
-        for (int z = 0; z < grid_->size[2]; ++z) {
-            float* const out = &shares_[(static_cast<std::size_t>(z) + 1) * stride_ + 1];
-            if (!grid_->rows[grid_->row(y, z)]) {
-                std::fill_n(out, grid_->size[0], 0.0f);
-                continue;
-            }
-            any = true;
-            const Cover* const covers = grid_->row_covers(y, z);
-            for (int x = 0; x < grid_->size[0]; ++x) out[x] = covers[x].hidden(direction) * factor;
-        }
-        return any;
-    }
-    void add(double x, double z, const int (&first)[2], float* sums) const {
-        const double left = std::floor(x), up = std::floor(z);
-        if (std::max(absolute(left), absolute(up)) > 2.0 * kSide) return;
-        const auto u = static_cast<float>(x - left), v = static_cast<float>(z - up);
-        const int move_x = first[0] - static_cast<int>(left) - 1, move_z = first[1] - static_cast<int>(up) - 1;
-        // Cell (i, k) of the map looks at column i - move_x, of the columns with one of zeros before the first, and the next one.
-        const int begin = std::max(0, move_x), end = std::min(kSide, move_x + grid_->size[0] + 1);
-        for (int k = std::max(0, move_z); k < std::min(kSide, move_z + grid_->size[2] + 1); ++k) {
-            const float* const lower = &shares_[static_cast<std::size_t>(k - move_z) * stride_];
-            const float* const upper = lower + stride_;
-            float* const out = sums + k * kSide;
-            for (int i = begin; i < end; ++i) {
-                const float* const a = lower + (i - move_x);
-                const float* const b = upper + (i - move_x);
-                const float near = a[0] + (a[1] - a[0]) * u, far = b[0] + (b[1] - b[0]) * u;
-                out[i] += near + (far - near) * v;
-            }
-        }
-    }
-
-private:
-    const CoverGrid* grid_;
-    std::size_t stride_;
-    std::vector<float> shares_;  ///< rows of the layer, with a zero before and after each, and rows of zeros before and after all
-};
-
 /// Sum over directions of equal light of the share that is hidden from each cell of the ground. first: cell of the lattice's first point.
-std::vector<float> hidden_sums(const CoverGrid& grid, double ground, const int (&first)[2]) {
-    std::vector<float> out(kSide * kSide), sums(kSide * kSide);
-    LayerShadow layer(grid);
+std::vector<float> hidden_sums(const CoverGrid& grid, double ground, const int (&first)[2], const RasterKernels& kernels) {
+    const LatticeCovers& covers = grid.along_x;
+    std::vector<float> out(kSide * kSide), sums(kSide * kGroundPitch), x, z;
+    std::vector<float> shares(static_cast<std::size_t>(grid.size[2] + 3) * kGroundPitch);
+    GroundCover layer{};
+    layer.length = grid.size[0], layer.rows = grid.size[2], layer.row_step = covers.layout.layer_step;
+    layer.first_x = first[0], layer.first_z = first[1];
+    layer.shares = shares.data(), layer.sums = sums.data();
+    std::vector<bool> filled;
+    for (int y = 0; y < grid.size[1]; ++y) {
+        bool any = false;
+        for (int k = 0; k < grid.size[2]; ++k) any |= covers.filled[static_cast<std::size_t>(k * grid.size[1] + y)] != 0;
+        filled.push_back(any);
+    }
     for (int i = 0; i < kDirections; ++i) {
         // Points of a spiral that fills a disc evenly [Vog79], lifted to the half sphere above it: equal parts of its light (Malley).
         const double across = std::sqrt((i + 0.5) / kDirections), up = std::sqrt(1.0 - across * across);
         const SinCos turn = sin_cos(2.0 * kPi * kGoldenTurn * i);
-        const double x = turn.cos * across / up, z = turn.sin * across / up;
-        const float direction[3] = {static_cast<float>(x), 1.0f, static_cast<float>(z)};
+        const double towards[3] = {turn.cos * across / up, 1.0, turn.sin * across / up};
         // Along a flat direction a layer's shadow is longer than a cell.
-        const int steps = std::max(1, static_cast<int>(std::ceil(std::max(absolute(x), absolute(z)))));
+        layer.steps = std::max(1, static_cast<int>(std::ceil(std::max(absolute(towards[0]), absolute(towards[2])))));
+        for (int k = 0; k < 3; ++k) {
+            layer.towards[k] = static_cast<float>(towards[k] / layer.steps);
+            layer.size[k] = static_cast<float>(absolute(towards[k]) / layer.steps);
+        }
         std::fill(sums.begin(), sums.end(), 0.0f);
         for (int y = 0; y < grid.size[1]; ++y) {
-            if (!layer.start(y, direction, 1.0f / static_cast<float>(steps))) continue;
-            for (int step = 0; step < steps; ++step) {
-                const double height = std::max(0.0, y - ground + (step + 0.5) / steps - 0.5);
-                layer.add(x * height, z * height, first, sums.data());
+            if (!filled[static_cast<std::size_t>(y)]) continue;
+            const auto row = static_cast<std::size_t>(y);
+            for (std::size_t k = 0; k < kCoverParts; ++k) layer.parts[k] = covers.parts[k].data() + row * kCoverPitch;
+            layer.filled = covers.filled.data() + row;
+            x.clear(), z.clear();
+            for (int step = 0; step < layer.steps; ++step) {
+                const double height = std::max(0.0, y - ground + (step + 0.5) / layer.steps - 0.5), beyond = 2.0 * kSide;
+                x.push_back(static_cast<float>(std::clamp(towards[0] * height, -beyond, beyond)));
+                z.push_back(static_cast<float>(std::clamp(towards[2] * height, -beyond, beyond)));
             }
+            layer.x = x.data(), layer.z = z.data();
+            kernels.cover_ground(layer);
         }
-        for (std::size_t k = 0; k < out.size(); ++k) out[k] += sums[k] < 1.0f ? sums[k] : 1.0f;
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const float sum = sums[k / kSide * kGroundPitch + k % kSide];
+            out[k] += sum < 1.0f ? sum : 1.0f;
+        }
     }
     return out;
 }
@@ -118,10 +95,10 @@ double standing(const CoverGrid& grid) {
     return (1.0 - smoothstep(beside / kUnstable)) * (kPalest + (1.0 - kPalest) * smoothstep(broad));
 }
 
-ContactMap map_of(const CoverGrid& grid) {
+ContactMap map_of(const CoverGrid& grid, const RasterKernels& kernels) {
     ContactMap map;
     map.ground = grid.lowest;
-    if (grid.covers.empty()) return map;
+    if (grid.empty()) return map;
     const double stands = standing(grid);
     if (!(stands > 0.0)) return map;
     map.per_length = grid.per_length;
@@ -131,7 +108,7 @@ ContactMap map_of(const CoverGrid& grid) {
         first[k] = (kSide - grid.size[2 * k]) / 2;
         *middle[k] = grid.origin[2 * k] - first[k] / map.per_length;
     }
-    map.hidden = hidden_sums(grid, (grid.lowest - grid.origin[1]) * grid.per_length, first);
+    map.hidden = hidden_sums(grid, (grid.lowest - grid.origin[1]) * grid.per_length, first, kernels);
     blur(map.hidden, 1), blur(map.hidden, kSide);
     const auto beside_foot = [&](int cell, int axis) {
         const double at = cell - first[axis];
@@ -152,9 +129,9 @@ ContactMap map_of(const CoverGrid& grid) {
 
 }  // namespace
 
-void make_contact_map(const CoverGrid& covers, KeptContactMap& kept) {
+void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, KeptContactMap& kept) {
     if (kept.revision == covers.revision) return;
-    kept.map = std::make_shared<const ContactMap>(map_of(covers));
+    kept.map = std::make_shared<const ContactMap>(map_of(covers, kernels));
     kept.revision = covers.revision;
 }
 

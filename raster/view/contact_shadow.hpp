@@ -32,7 +32,7 @@ struct KeptContactMap {
 
 /// Makes the map unless it is that of these covers already. A scene stands if its middle lies above its foot. Beside the foot the shadow
 /// fades, and below a narrow one it is paler.
-void make_contact_map(const CoverGrid& covers, KeptContactMap& kept);
+void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, KeptContactMap& kept);
 
 /// A contact shadow in a picture.
 class ContactShadow {

@@ -11,7 +11,8 @@
 namespace halflit::raster {
 namespace {
 
-constexpr float kPiece = 0.75f;         ///< longest side of a piece, spacings
+constexpr float kPiece = 1.1f;          ///< longest side of a piece, spacings
+constexpr float kBroad = 0.25f;         ///< least height of a triangle that is cut into pieces like it, over its longest side
 constexpr float kBehind = 0.5f;         ///< from a single-sided triangle to where it counts, spacings
 constexpr float kThroughGlass = 0.75f;  ///< of the light that a surface transmits; the rest is bent aside
 constexpr double kFoot = 0.02;         ///< height of the foot over that of the scene
@@ -64,10 +65,18 @@ private:
             add_piece((t.a + t.b + t.c) * (1.0f / 3.0f), area);
             return;
         }
+        bool inside = true;
         const auto outside = [&](float a, float b, float c, int axis) {
-            return std::max({a, b, c}) <= -1.0f || std::min({a, b, c}) >= static_cast<float>(size_[axis]);
+            const float low = std::min({a, b, c}), high = std::max({a, b, c}), last = static_cast<float>(size_[axis] - 1);
+            inside &= low >= 0.0f && high < last;
+            return high <= 0.0f || low >= last;
         };
         if (outside(t.a.x, t.b.x, t.c.x, 0) || outside(t.a.y, t.b.y, t.c.y, 1) || outside(t.a.z, t.b.z, t.c.z, 2)) return;
+        const Vec3f across = cross(ab, ca);
+        if (inside && dot(across, across) > kBroad * kBroad * longest * longest) {
+            add_alike(t, area, static_cast<int>(std::sqrt(longest) * (1.0f / kPiece)) + 1);
+            return;
+        }
         ++pieces_;
         const Vec3f half = area * 0.5f;
         if (longest == of_ab) {
@@ -79,6 +88,19 @@ private:
         } else {
             const Vec3f m = (t.c + t.a) * 0.5f;
             cut({t.a, t.b, m}, half), cut({m, t.b, t.c}, half);
+        }
+    }
+    /// Adds a triangle as count^2 like it.
+    void add_alike(const Triangle& t, Vec3f area, int count) {
+        const float part = 1.0f / static_cast<float>(count);
+        const Vec3f ab = (t.b - t.a) * part, ac = (t.c - t.a) * part, each = area * (part * part);
+        for (int i = 0; i < count; ++i) {
+            const Vec3f row = t.a + ab * static_cast<float>(i);
+            for (int k = 0; i + k < count; ++k) {
+                const Vec3f corner = row + ac * static_cast<float>(k), third = (ab + ac) * (1.0f / 3.0f);
+                add_piece(corner + third, each);
+                if (i + k + 1 < count) add_piece(corner + third * 2.0f, each);
+            }
         }
     }
     void add_piece(Vec3f at, Vec3f area) {
@@ -176,30 +198,42 @@ void collect_all(const PreparedData& prepared, const CoverGrid& grid, Collector&
     }
 }
 
+LatticeCovers rows_of(int rows, int layers) {
+    const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(layers);
+    LatticeCovers out;
+    out.layout = {rows, layers, kCoverPitch, std::int64_t{kCoverPitch} * rows};
+    for (std::vector<float>& part : out.parts) part.resize(count * kCoverPitch);
+    out.filled.resize(count);
+    return out;
+}
+
 /// What the areas hide, and where that lies in the mean.
 void find_covers(const std::vector<Areas>& areas, CoverGrid& grid) {
-    grid.covers.resize(areas.size());
-    grid.rows.assign(static_cast<std::size_t>(grid.size[1]) * static_cast<std::size_t>(grid.size[2]), false);
+    const int(&size)[3] = grid.size;
+    LatticeCovers& along_x = grid.along_x = rows_of(size[1], size[2]);
+    LatticeCovers& along_y = grid.along_y = rows_of(size[2], size[0]);
     double sum[2] = {0, 0}, all = 0;
     const Areas* from = areas.data();
-    Cover* to = grid.covers.data();
-    for (int z = 0; z < grid.size[2]; ++z)
-        for (int y = 0; y < grid.size[1]; ++y)
-            for (int x = 0; x < grid.size[0]; ++x, ++from, ++to) {
+    for (int z = 0; z < size[2]; ++z)
+        for (int y = 0; y < size[1]; ++y)
+            for (int x = 0; x < size[0]; ++x, ++from) {
                 float total = 0.0f;
                 for (int k = 0; k < 3; ++k) total += from->ahead[k] + from->behind[k];
                 if (!(total > 0.0f)) continue;
-                for (int k = 0; k < 3; ++k) {
-                    to->facing[k] = from->ahead[k] - from->behind[k];
-                    to->both[k] = std::min(from->ahead[k], from->behind[k]);
+                const auto by_x = static_cast<std::size_t>(z * size[1] + y), by_y = static_cast<std::size_t>(x * size[2] + z);
+                const std::size_t in_x = by_x * kCoverPitch + static_cast<std::size_t>(x),
+                                  in_y = by_y * kCoverPitch + static_cast<std::size_t>(y);
+                const auto put = [&](std::size_t part, float value) { along_x.parts[part][in_x] = along_y.parts[part][in_y] = value; };
+                for (std::size_t k = 0; k < 3; ++k) {
+                    put(k, from->ahead[k] - from->behind[k]);
+                    put(3 + k, std::min(from->ahead[k], from->behind[k]));
                 }
-                to->back = from->double_sided / total;
-                grid.rows[grid.row(y, z)] = true;
+                put(6, from->double_sided / total);
+                along_x.filled[by_x] = along_y.filled[by_y] = 1;
                 const double weight = std::min(1.0, double{total});
                 sum[0] += x * weight, sum[1] += z * weight, all += weight;
             }
     if (!(all > 0.0)) {
-        grid.covers.clear();
         std::fill_n(grid.size, 3, 0);
         return;
     }

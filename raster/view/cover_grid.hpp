@@ -8,31 +8,29 @@
 // It depends on the geometry and on what is opaque alone, so pictures of a scene that stands still share it.
 #pragma once
 
+#include "raster/kernels/raster_kernels.hpp"
 #include "raster/scene/prepared_data.hpp"
 #include "sh/vec3d.hpp"
 
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace halflit::raster {
 
 /// Most points on a side of the lattice, and spacings from the scene's box to the lattice's border.
-inline constexpr int kMostCoverPoints = 32;
+inline constexpr int kMostCoverPoints = 28;
+static_assert(kMostCoverPoints <= kCoverPitch);
 inline constexpr float kCoverMargin = 1.5f;
 
-/// Share of the light from one direction that is hidden at a point: a sum over the axes, held at 1.
-struct Cover {
-    float facing[3];  ///< the triangles' area vector, by their fronts, over the square of the spacing
-    float both[3];    ///< areas across each axis that face both ways: the lesser of the two
-    float back;       ///< factor of the area vector for light on the backs: the share of double-sided triangles
-    /// direction: to the light, of any length; the share is times that length.
-    [[nodiscard]] float hidden(const float (&direction)[3]) const {
-        const auto size = [](float x) { return x < 0.0f ? -x : x; };
-        const float front = facing[0] * direction[0] + facing[1] * direction[1] + facing[2] * direction[2];
-        const float rest = both[0] * size(direction[0]) + both[1] * size(direction[1]) + both[2] * size(direction[2]);
-        return (front > 0.0f ? front : -back * front) + rest;
-    }
+/// Covers of the points of a lattice. The share of the light from a direction d that is hidden at a point is a sum over the axes, held at 1:
+/// max(0, facing.d) + back max(0, -facing.d) + both.|d|. Kernels read it as rows of each number.
+struct LatticeCovers {
+    CoverLayout layout;
+    /// facing: the triangles' area vector, by their fronts, over the square of the spacing; both: the areas across each axis that face
+    /// both ways, the lesser of the two; back: the share of double-sided triangles.
+    std::vector<float> parts[kCoverParts];
+    std::vector<std::uint8_t> filled;  ///< of each row: not 0 if some cover is not 0
 };
 
 /// A rectangle around the part of a scene that it stands on, spacings from the lattice's first point; empty while low > high.
@@ -48,13 +46,11 @@ struct CoverGrid {
     double per_length = 0;                  ///< points in a world unit
     double width[3] = {0, 0, 0};            ///< sides of the scene's box, spacings
     double lowest = 0;                      ///< the scene's least y, world space
-    std::vector<Cover> covers;              ///< rows along x, in layers of z
-    std::vector<bool> rows;                 ///< of y, in layers of z: some cover of the row is not 0
+    LatticeCovers along_x, along_y;         ///< rows along x in layers of z, and along y in layers of x
     Foot foot;                              ///< all that lies a little above the lowest point; empty: that is a large ground
     double middle[2] = {0, 0};              ///< mean place of what hides, along x and z, spacings from the first point
 
-    [[nodiscard]] std::size_t row(int y, int z) const { return static_cast<std::size_t>(z * size[1] + y); }
-    [[nodiscard]] const Cover* row_covers(int y, int z) const { return &covers[row(y, z) * static_cast<std::size_t>(size[0])]; }
+    [[nodiscard]] bool empty() const { return size[0] == 0; }
 };
 
 /// Makes the grid unless it is this scene's already.

@@ -23,6 +23,7 @@ struct SkyGrid {
 };
 
 /// Makes the grid unless it is that of these covers and of this light already. lights: plan_lights(sky_lights(kGridDirections, ..)).
-[[nodiscard]] shading::SkyGridPlan make_sky_grid(const CoverGrid& covers, std::span<const shading::LightPlan> lights, SkyGrid& grid);
+[[nodiscard]] shading::SkyGridPlan make_sky_grid(const CoverGrid& covers, std::span<const shading::LightPlan> lights,
+                                                 const RasterKernels& kernels, SkyGrid& grid);
 
 }  // namespace halflit::raster

@@ -35,8 +35,8 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
     const M inside = along(position.x, normal.x, 0, x, u, below_x) & along(position.y, normal.y, 1, y, v, below_y) &
                      along(position.z, normal.z, 2, z, w, below_z);
     // At most 2^15 points: indices are exact in float.
-    const float row = static_cast<float>(grid.size[0]), layer = static_cast<float>(grid.size[0] * grid.size[1]);
-    const I first = round_even(mad(z, F(layer), mad(y, F(row), x)) * F(static_cast<float>(kTerms)));
+    const F row(static_cast<float>(grid.row)), layer(static_cast<float>(grid.layer));
+    const I first = round_even(mad(z, layer, mad(y, row, x)) * F(static_cast<float>(kTerms)));
     const F height = ((normal.x * below_x + normal.y * below_y) + normal.z * below_z) - F(shading::kGridClearance);
     // Mostly all lanes lie between the same eight points: then nothing is gathered.
     const std::int32_t leading = first_lane(first);
@@ -45,7 +45,7 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
     for (F& term : out.terms) term = none;
     F sum(0.0f);
     for (int k = 0; k < 8; ++k) {
-        const int step = kTerms * ((k & 1) + (k >> 1 & 1) * grid.size[0] + (k >> 2) * grid.size[0] * grid.size[1]);
+        const int step = kTerms * ((k & 1) + (k >> 1 & 1) * grid.row + (k >> 2) * grid.layer);
         F above = height;
         if ((k & 1) != 0) above = above + normal.x;
         if ((k & 2) != 0) above = above + normal.y;

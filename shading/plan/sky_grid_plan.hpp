@@ -55,11 +55,11 @@ inline void add_grid_light(double light, const double (&d)[3], double (&terms)[k
     for (int k = 0; k < kGridTerms; ++k) terms[k] += more[k];
 }
 
-/// Point p = (z * size[1] + y) * size[0] + x of the lattice lies at origin + (x, y, z) / per_length. Its terms of H are
-/// hidden[kGridTerms p ..].
+/// Point p = z * layer + y * row + x of the lattice lies at origin + (x, y, z) / per_length. Its terms of H are hidden[kGridTerms p ..].
 struct SkyGridPlan {
     const float* hidden = nullptr;      ///< null: there is no grid
     std::int32_t size[3] = {0, 0, 0};   ///< points, at most 32 each
+    std::int32_t row = 0, layer = 0;    ///< steps in p
     float origin[3] = {0, 0, 0};        ///< world space
     float per_length = 0;               ///< points in a world unit
     float total[kGridTerms] = {};       ///< terms of T
