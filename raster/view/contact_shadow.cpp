@@ -16,7 +16,7 @@ constexpr double kUnstable = 0.3;  ///< of a scene's width: so far from its foot
 constexpr double kNarrow = 0.35, kPalest = 0.33;
 
 constexpr int kSide = kGroundCells;  ///< cells on a side of the map, as wide as the lattice's spacing
-constexpr int kDirections = 40;
+constexpr int kDirections = 32;
 constexpr double kReach = 0.3;         ///< within which the shadow fades beside the foot, over the longest side
 constexpr double kPictureFade = 0.04;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
 
@@ -61,9 +61,10 @@ std::vector<float> hidden_sums(const CoverGrid& grid, double ground, const int (
             layer.x = x.data(), layer.z = z.data();
             kernels.cover_ground(layer);
         }
-        for (std::size_t k = 0; k < out.size(); ++k) {
-            const float sum = sums[k / kSide * kGroundPitch + k % kSide];
-            out[k] += sum < 1.0f ? sum : 1.0f;
+        for (int row = 0; row < kSide; ++row) {
+            const float* const from = &sums[static_cast<std::size_t>(row * kGroundPitch)];
+            float* const to = &out[static_cast<std::size_t>(row * kSide)];
+            for (int k = 0; k < kSide; ++k) to[k] += from[k] < 1.0f ? from[k] : 1.0f;
         }
     }
     return out;

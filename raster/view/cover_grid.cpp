@@ -11,7 +11,7 @@
 namespace halflit::raster {
 namespace {
 
-constexpr float kPiece = 1.1f;          ///< longest side of a piece, spacings
+constexpr float kPiece = 1.5f;          ///< longest side of a piece, spacings
 constexpr float kBroad = 0.25f;         ///< least height of a triangle that is cut into pieces like it, over its longest side
 constexpr float kBehind = 0.5f;         ///< from a single-sided triangle to where it counts, spacings
 constexpr float kThroughGlass = 0.75f;  ///< of the light that a surface transmits; the rest is bent aside

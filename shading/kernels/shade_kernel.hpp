@@ -110,7 +110,8 @@ static void hidden_sky(const shading::ShadingPlan& frame, const shading::Materia
         TexelTaps taps;
         const V3 surface = normals(material, block, lane, taps).surface;
         const GridLight light = grid_light(frame.sky_grid, looked_up(frame, block, lane), surface);
-        for (int k = 0; k < shading::kGridTerms; ++k) store(terms[k] + lane, light.terms[k]);
+        const F values[shading::kGridTerms] = {light.one, light.x, light.y, light.z, light.xx, light.yy, light.xy, light.xz, light.yz};
+        for (int k = 0; k < shading::kGridTerms; ++k) store(terms[k] + lane, values[k]);
     }
 }
 

@@ -10,10 +10,28 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
-/// Light that is hidden at a fragment, as a polynomial in the normal, in the order of kGridTerms.
+/// Light that is hidden at a fragment, as a polynomial in the normal: factors of 1; x, y, z; xx, yy; xy, xz, yz.
 struct GridLight {
-    F terms[shading::kGridTerms];
+    F one, x, y, z, xx, yy, xy, xz, yz;
+
+    /// Adds a point's terms, term(k), times its weight.
+    template <class Term>
+    HALFLIT_INLINE void add(F weight, const Term& term) {
+        one = mad(term(0), weight, one);
+        x = mad(term(1), weight, x), y = mad(term(2), weight, y), z = mad(term(3), weight, z);
+        xx = mad(term(4), weight, xx), yy = mad(term(5), weight, yy);
+        xy = mad(term(6), weight, xy), xz = mad(term(7), weight, xz), yz = mad(term(8), weight, yz);
+    }
+    [[nodiscard]] HALFLIT_INLINE F at(V3 n) const {
+        const F linear = ((x * n.x + y * n.y) + z * n.z) + one;
+        return linear + ((xx * n.x + xy * n.y + xz * n.z) * n.x + (yy * n.y + yz * n.z) * n.y);
+    }
 };
+static_assert(shading::kGridTerms == 9);
+HALFLIT_INLINE GridLight no_grid_light() {
+    const F none(0.0f);
+    return {none, none, none, none, none, none, none, none, none};
+}
 
 /// `normal`: of the surface, unit.
 HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 position, V3 normal) {
@@ -41,9 +59,8 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
     // Mostly all lanes lie between the same eight points: then nothing is gathered.
     const std::int32_t leading = first_lane(first);
     const bool together = all(equal(first, I(leading)) | !inside);
-    GridLight out;
-    for (F& term : out.terms) term = none;
-    F sum(0.0f);
+    F weights[8], sum(0.0f);
+    int steps[8], count = 0;
     for (int k = 0; k < 8; ++k) {
         const int step = kTerms * ((k & 1) + (k >> 1 & 1) * grid.row + (k >> 2) * grid.layer);
         F above = height;
@@ -54,32 +71,34 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
         const F weight = linear * clamp(above, none, one);
         if (!any(weight > none)) continue;  // it would add 0
         sum = sum + weight;
-        if (together) {
-            const float* const point = grid.hidden + leading + step;
-            for (int t = 0; t < kTerms; ++t) out.terms[t] = mad(F(point[t]), weight, out.terms[t]);
-        } else {
-            for (int t = 0; t < kTerms; ++t) out.terms[t] = mad(gather(grid.hidden, first + I(step + t)), weight, out.terms[t]);
-        }
+        weights[count] = weight;
+        steps[count++] = step;
     }
     const F fade = vmax(border, none) * F(1.0f / shading::kGridFade);
     const F factor = sel(inside, vdiv(fade, vmax(sum, F(shading::kLeastGridWeight))), none);
-    for (F& term : out.terms) term = term * factor;
+    GridLight out = no_grid_light();
+    if (together) {
+        for (int k = 0; k < count; ++k) {
+            const float* const point = grid.hidden + leading + steps[k];
+            out.add(weights[k] * factor, [point](int term) __attribute__((always_inline)) { return F(point[term]); });
+        }
+    } else {
+        for (int k = 0; k < count; ++k) {
+            const I point = first + I(steps[k]);
+            out.add(weights[k] * factor,
+                    [&](int term) __attribute__((always_inline)) { return gather(grid.hidden + term, point); });
+        }
+    }
     return out;
-}
-
-/// The polynomial's value.
-template <class Term>
-HALFLIT_INLINE F of_normal(const Term (&t)[shading::kGridTerms], V3 n) {
-    const F linear = ((F(t[1]) * n.x + F(t[2]) * n.y) + F(t[3]) * n.z) + F(t[0]);
-    const F squares = (F(t[4]) * n.x + F(t[6]) * n.y + F(t[7]) * n.z) * n.x + (F(t[5]) * n.y + F(t[8]) * n.z) * n.y;
-    return linear + squares;
 }
 
 /// Share of the light of the surroundings that reaches a surface, in [kGridBounce, 1]. `normal`: that light is received by.
 HALFLIT_INLINE F seen_in_grid(const shading::SkyGridPlan& grid, const GridLight& hidden, V3 normal) {
     constexpr float kThreshold = shading::kGridThreshold;
-    const F total = vmax(of_normal(grid.total, normal), F(grid.least_total));
-    const F share = (vdiv(of_normal(hidden.terms, normal), total) - F(kThreshold)) * F(1.0f / (1.0f - kThreshold));
+    GridLight all = no_grid_light();
+    all.add(F(1.0f), [&](int term) __attribute__((always_inline)) { return F(grid.total[term]); });
+    const F total = vmax(all.at(normal), F(grid.least_total));
+    const F share = (vdiv(hidden.at(normal), total) - F(kThreshold)) * F(1.0f / (1.0f - kThreshold));
     return F(1.0f) - clamp(share, F(0.0f), F(1.0f)) * F(1.0f - shading::kGridBounce);
 }
 
