@@ -276,16 +276,14 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
     if (!has_sky_shadows(light, settings)) return SkyPlan{};
     constexpr int kRows = 96, kRowsOfGrid = 16;  // of the cells that are given to the directions
     const bool in_grid = settings.sky_shadows == kSkyShadowsAuto;
-    if (in_grid) fill_voxels(scene, memory.voxels), make_sky_grid(memory.voxels, memory.sky_grid);
-    if (in_grid && memory.sky_grid.masks.empty()) return SkyPlan{};
+    if (in_grid) make_cover_grid(scene, memory.covers);
+    if (in_grid && memory.covers.empty()) return SkyPlan{};
     SkyPlan plan;
     plan.directions = in_grid ? shading::kGridDirections : settings.sky_shadows;
     plan.lights = shading::plan_lights(
         shading::sky_lights(plan.directions, in_grid ? kRowsOfGrid : kRows, light.environment.get(), light.ambient, memory.sky_cells));
     if (in_grid) {
-        for (LightPlan& one : plan.lights) one.shadow_map = shading::kInSkyGrid;
-        plan.grid = memory.sky_grid.place;
-        plan.grid.masks = memory.sky_grid.masks.data();
+        plan.grid = make_sky_grid(memory.covers, plan.lights, *memory.kernels, memory.sky_grid);
         return plan;
     }
     Settings of_sky = settings;
@@ -308,8 +306,8 @@ bool has_shadow_catcher(const PreparedData& prepared) {
 ContactShadow plan_contact_shadow(const PreparedData& scene, const Camera& camera, const Settings& settings, int width, int height,
                                   FramePlanMemory& memory) {
     if (settings.contact_shadow == 0.0f || settings.shadows == ShadowMode::off || has_shadow_catcher(scene)) return {};
-    fill_voxels(scene, memory.voxels);
-    make_contact_map(memory.voxels, memory.contact_map);
+    make_cover_grid(scene, memory.covers);
+    make_contact_map(memory.covers, *memory.kernels, memory.contact_map);
     return {memory.contact_map.map, camera, width, height, settings.contact_shadow};
 }
 
@@ -419,7 +417,7 @@ Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, c
                              int height, int tile_size) {
     FramePlanMemory memory;
     auto plan = plan_frame(scene, light, camera, settings, width, height, tile_size, memory);
-    if (plan) plan->shading.sky_grid.masks = nullptr;  // they end with the memory
+    if (plan) plan->shading.sky_grid.hidden = nullptr;  // it ends with the memory
     return plan;
 }
 

@@ -67,7 +67,8 @@ struct FramePlanMemory {
     std::map<std::array<double, 3>, double> light_distances;
     /// Texels of all shadow maps, one map after the other. Without a value the plan is only read: its maps have no texels.
     std::optional<RawBuffer<float>> shadow_texels;
-    FilledVoxels voxels;
+    const RasterKernels* kernels = &raster_kernels(Isa::scalar);  ///< of the call
+    CoverGrid covers;
     SkyGrid sky_grid;
     KeptContactMap contact_map;
     shading::SkyCells sky_cells;
@@ -80,7 +81,7 @@ struct FramePlanMemory {
 Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
                              int height, int tile_size, FramePlanMemory& memory);
 
-/// The same for callers that only read the plan: its shadow maps have no texels, and its grid of sky shadows no masks.
+/// The same for callers that only read the plan: its shadow maps have no texels, and its grid of sky shadows no terms.
 Result<FramePlan> plan_frame(const PreparedData& scene, const Lighting& light, const Camera& camera, const Settings& settings, int width,
                              int height, int tile_size = Execution{}.tile_size);
 

@@ -116,8 +116,9 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     executor.configure(execution);
     plan_memory.stop = &executor.stop();
     plan_memory.for_each_row = [this](int count, const std::function<void(int)>& body) { executor.run(count, body); };
-    if (auto ok = make_plan(scene, light, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
     const RasterKernels& raster = raster_kernels(isa);
+    plan_memory.kernels = &raster;
+    if (auto ok = make_plan(scene, light, camera, settings, target, execution.tile_size); !ok) return tl::unexpected<Error>(ok.error());
     const shading::ShadeKernels& shade = shading::shade_kernels(isa);
     const bool by_reference = plan.options.accuracy == Accuracy::reference;
     const bool shades = target.pixels != nullptr || target.linear != nullptr;

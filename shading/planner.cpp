@@ -73,17 +73,13 @@ void plan_environments(const PlanInputs& inputs, double budget_codes, bool bound
 
 /// Light from all directions that the grid has.
 void plan_sky_grid(ShadingPlan& plan) {
-    double all = 0.0, total[10] = {};
+    double all = 0.0, total[kGridTerms] = {};
     for (const LightPlan& light : plan.sky) {
-        const double l = double{light.brightness}, x = double{light.to_light[0]}, y = double{light.to_light[1]},
-                     z = double{light.to_light[2]};
-        const double once = kGridLobe.linear, twice = kGridLobe.square;
-        const double terms[10] = {kGridLobe.constant, once * x,      once * y,          once * z,          twice * x * x,
-                                  twice * y * y,      twice * z * z, 2 * twice * x * y, 2 * twice * x * z, 2 * twice * y * z};
-        for (int k = 0; k < 10; ++k) total[k] += l * terms[k];
-        all += l;
+        const double to_light[3] = {light.to_light[0], light.to_light[1], light.to_light[2]};
+        add_grid_light(double{light.brightness}, to_light, total);
+        all += double{light.brightness};
     }
-    for (int k = 0; k < 10; ++k) plan.sky_grid.total[k] = static_cast<float>(total[k]);
+    for (int k = 0; k < kGridTerms; ++k) plan.sky_grid.total[k] = static_cast<float>(total[k]);
     plan.sky_grid.least_total = std::max(static_cast<float>(kLeastGridTotal * all), 1e-30f);
 }
 
@@ -94,7 +90,7 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     plan.sky = shadows.sky;
     if (!plan.sky.empty()) plan.sky_focus = narrowest_sky_focus(shadows.sky_directions);
     plan.sky_grid = shadows.sky_grid;
-    if (plan.sky_grid.masks != nullptr) plan_sky_grid(plan);
+    if (plan.sky_grid.hidden != nullptr) plan_sky_grid(plan);
     for (std::size_t i = 0; i < std::min(plan.lights.size(), shadows.map_of_light.size()); ++i)
         plan.lights[i].shadow_map = shadows.map_of_light[i];
     plan.shadow_mode = plan.shadow_maps.empty() ? ShadowMode::off : shadows.mode;

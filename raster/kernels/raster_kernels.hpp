@@ -207,6 +207,55 @@ struct DepthRange {
     bool perspective;
 };
 
+/// Numbers of a cover (view/cover_grid.hpp): area vector, areas that face both ways, factor for backs.
+inline constexpr int kCoverParts = 7;
+/// Points of a row of covers in memory; those beyond the lattice's have no cover.
+inline constexpr int kCoverPitch = 32;
+inline constexpr int kSweepPitch = 40;                     ///< of rows with a zero before and after
+inline constexpr int kGroundCells = 64, kGroundPitch = 80;  ///< of a row of the ground's cells; and of one in memory
+
+/// Rows of kCoverPitch points, which lie in layers: their numbers, and steps in memory in floats.
+struct CoverLayout {
+    int rows = 0, layers = 0;
+    std::int64_t row_step = 0, layer_step = 0;
+};
+
+/// A direction through a lattice, from its far end: the share that is hidden at a point is that of the place in the next layer that the
+/// direction leads to, and what is covered there, at most 1.
+struct CoverSweep {
+    const float* parts[kCoverParts];
+    const std::uint8_t* filled;  ///< of each row: not 0 if some cover is not 0
+    CoverLayout layout;
+    float towards[3], size[3];  ///< to the light, 1 from layer to layer; its magnitudes
+    float along, across;        ///< how far it goes from a layer to the next in a row, and from row to row, at most 1
+    bool from_last;             ///< it comes from the last layer
+    float* work;                ///< 2 (rows + 2) kSweepPitch floats, at first zeros
+    float* hidden;              ///< out: at each point
+};
+
+/// Sums over directions of shares times factors, for `points` points, a multiple of kCoverPitch.
+struct GridTermSums {
+    const float* shares;   ///< of each direction, those of all points
+    const float* factors;  ///< kGridTerms of each direction
+    int directions;
+    std::int64_t points;
+    float* terms;  ///< out: kGridTerms of each point
+};
+
+/// A layer of covers as seen from the ground, whose cells are as wide as the lattice's spacing.
+struct GroundCover {
+    const float* parts[kCoverParts];  ///< of the layer's first row
+    const std::uint8_t* filled;
+    int length, rows;
+    std::int64_t row_step;
+    float towards[3], size[3];  ///< to the light, over its height; times the share of each step
+    int first_x, first_z;       ///< cell below the lattice's first point
+    int steps;
+    const float *x, *z;  ///< from a cell to the points that it sees, for each step
+    float* shares;       ///< (rows + 3) kGroundPitch floats, at first zeros: work space
+    float* sums;         ///< kGroundCells rows; what is hidden is added
+};
+
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
@@ -232,6 +281,9 @@ struct RasterKernels {
     void (*interpolate)(const InterpolateArgs&, shading::FragmentBlock&);
     /// Distances along a shadow map's axis for a row of depths.
     void (*distances)(const DepthRange&, const float* depth, int count, float* distance);
+    void (*sweep_covers)(const CoverSweep&);
+    void (*sum_grid_terms)(const GridTermSums&);
+    void (*cover_ground)(const GroundCover&);
 };
 
 [[nodiscard]] const RasterKernels& raster_kernels(Isa isa);

@@ -11,10 +11,12 @@ namespace {
 /// Hidden shares of a block's lanes, lane after lane; empty where nothing is hidden.
 struct HiddenShares {
     std::vector<reference::Hidden> lights, sky;
+    std::vector<double> sky_terms;
 };
 
 /// The lane's part of a list.
-std::span<const reference::Hidden> of_lane(const std::vector<reference::Hidden>& shares, int lane) {
+template <class Share>
+std::span<const Share> of_lane(const std::vector<Share>& shares, int lane) {
     const std::size_t count = shares.size() / shading::kBlockSize;
     return std::span(shares).subspan(static_cast<std::size_t>(lane) * count, count);
 }
@@ -33,9 +35,16 @@ HiddenShares hidden_shares(const shading::ShadeKernels& kernels, const shading::
             share.soft = static_cast<double>(excess[lane]);
         }
     }
+    if (plan.sky_grid.hidden != nullptr) {
+        alignas(64) float terms[shading::kGridTerms][shading::kBlockSize];
+        kernels.hidden_sky(plan, material, block, count, terms);
+        for (int lane = 0; lane < shading::kBlockSize; ++lane)
+            for (const auto& term : terms) out.sky_terms.push_back(lane < count ? double{term[lane]} : 0.0);
+        return out;
+    }
     out.sky.resize(plan.sky.size() * shading::kBlockSize);
     for (std::size_t i = 0; i < plan.sky.size(); ++i) {
-        if (plan.sky[i].shadow_map == -1) continue;
+        if (plan.sky[i].shadow_map < 0) continue;
         kernels.hidden(plan, material, plan.sky[i], block, count, core, excess);
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
             out.sky[lane * plan.sky.size() + i] = {static_cast<double>(core[lane]), static_cast<double>(excess[lane]), 0.0};
@@ -90,7 +99,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
     reference::Surroundings around;
     around.sky = plan.sky;
     around.sky_focus = static_cast<double>(plan.sky_focus);
-    if (plan.sky_grid.masks != nullptr) around.sky_grid = &plan.sky_grid;
+    if (plan.sky_grid.hidden != nullptr) around.sky_grid = &plan.sky_grid;
     around.diffuse = diffuse_[index].get();
     around.reflections = &plan.reflections;
     around.reflection_lobes = material_plan.reflection_lobes;
@@ -101,6 +110,7 @@ void ReferenceShading::shade(const shading::ShadeKernels& kernels, const shading
         stop.check();  // a fragment below a sky takes milliseconds
         around.hidden = of_lane(near.lights, lane), around.hidden_sky = of_lane(near.sky, lane);
         around.hidden_far = of_lane(far.lights, lane), around.hidden_sky_far = of_lane(far.sky, lane);
+        around.sky_terms = of_lane(near.sky_terms, lane), around.sky_terms_far = of_lane(far.sky_terms, lane);
         const reference::Rgba color = reference::shade(frame_, scene_->material(index), filled, block, lane, around);
         block.red[lane] = static_cast<float>(color.r);
         block.green[lane] = static_cast<float>(color.g);

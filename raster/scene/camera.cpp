@@ -56,10 +56,14 @@ Camera completed(Camera camera, const Bounds& scene) {
     const FpEnvironment environment_of_host;
     if (camera.orthographic || camera.near_z != 0.0f) return camera;
     constexpr float kNearestShare = 1e-4f;  // of the distance to the scene's centre or of its radius
+    constexpr float kClear = 0.25f;         // of the distance to the scene's box: the corners of the widest view lie nearer along the axis
     camera.near_z = 0.1f;
     if (scene.empty) return camera;
     const Vec4f &back = camera.world_from_camera.c[2], &place = camera.world_from_camera.c[3];
     const Vec3f eye{place.x, place.y, place.z};
+    const auto beside = [](float at, float low, float high) { return at < low ? low - at : at > high ? at - high : 0.0f; };
+    const float distance = length(
+        Vec3f{beside(eye.x, scene.min.x, scene.max.x), beside(eye.y, scene.min.y, scene.max.y), beside(eye.z, scene.min.z, scene.max.z)});
     float nearest = 3e38f;
     for (unsigned corner = 0; corner < 8; ++corner) {
         const Vec3f p{corner & 1 ? scene.max.x : scene.min.x, corner & 2 ? scene.max.y : scene.min.y,
@@ -68,7 +72,8 @@ Camera completed(Camera camera, const Bounds& scene) {
         if (depth < nearest) nearest = depth;
     }
     const float away = length(scene.center() - eye), radius = scene.radius(), size = away > radius ? away : radius;
-    const float half_way = nearest / 2, least = kNearestShare * size, near_z = half_way > least ? half_way : least;
+    const float clear = distance > 0.0f ? kClear * distance : 3e38f, share = kNearestShare * size;
+    const float half_way = nearest / 2, least = clear < share ? clear : share, near_z = half_way > least ? half_way : least;
     if (near_z > 0.0f && near_z < 3e38f) camera.near_z = near_z;
     return camera;
 }

@@ -6,80 +6,67 @@
 #include "sh/trig.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace halflit::raster {
 namespace {
 
-constexpr double kFoot = 0.02;     ///< of a scene's height
 constexpr double kUnstable = 0.3;  ///< of a scene's width: so far from its foot lies the middle of one that floats
 /// A foot narrower than this, of the scene's width, has a paler shadow: most of what stands on a point floats, but balls do not.
 constexpr double kNarrow = 0.35, kPalest = 0.33;
 
-constexpr int kSide = 64;       ///< cells on a side of the map: bits of a word
-constexpr int kCellVoxels = 2;  ///< along each axis
-constexpr int kDirections = 64, kCountBits = std::bit_width(unsigned{kDirections});
+constexpr int kSide = kGroundCells;  ///< cells on a side of the map, as wide as the lattice's spacing
+constexpr int kDirections = 32;
 constexpr double kReach = 0.3;         ///< within which the shadow fades beside the foot, over the longest side
 constexpr double kPictureFade = 0.06;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
 
-using Word = BitGrid::Word;
-
-/// The scene's voxels by cells of the map: a layer of rows of z for each height above the ground, bits along x.
-BitGrid cells_above(const FilledVoxels& voxels, int ground_row, const int (&first)[2]) {
-    BitGrid cells((voxels.size[1] - ground_row + kCellVoxels - 1) / kCellVoxels, kSide);
-    for (int z = 0; z < voxels.size[2]; ++z)
-        for (int y = ground_row; y < voxels.size[1]; ++y) {
-            Word& row = cells.row((y - ground_row) / kCellVoxels, first[1] + z / kCellVoxels);
-            for (Word left = voxels.bits.row(z, y); left != 0; left &= left - 1)
-                row |= Word{1} << (first[0] + std::countr_zero(left) / kCellVoxels);
-        }
-    return cells;
-}
-
-/// Finds the cells of the ground from which the sky is hidden in a direction. x, z: how far that goes in a cell's height. first_row,
-/// end_row: of the cells that something may fill.
-void add_hidden(const BitGrid& cells, int first_row, int end_row, double x, double z, Word (&hidden)[kSide]) {
-    // From the bottom of a layer to that of the next one so often that it moves by at most a cell.
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::max(absolute(x), absolute(z)))));
-    for (int k = 0; k < cells.layers; ++k) {
-        const Word* const layer = cells.layer(k);
-        for (int step = 0; step < steps; ++step) {
-            const double height = k + static_cast<double>(step) / steps;
-            const int bits = static_cast<int>(std::floor(x * height + 0.5)), rows = static_cast<int>(std::floor(z * height + 0.5));
-            if (bits <= -kSide || bits >= kSide) break;
-            const int begin = std::max(0, first_row - rows), end = std::min(kSide, end_row - rows);
-            if (bits < 0)
-                for (int r = begin; r < end; ++r) hidden[r] |= layer[r + rows] << -bits;
-            else
-                for (int r = begin; r < end; ++r) hidden[r] |= layer[r + rows] >> bits;
-        }
+/// Sum over directions of equal light of the share that is hidden from each cell of the ground. first: cell of the lattice's first point.
+std::vector<float> hidden_sums(const CoverGrid& grid, double ground, const int (&first)[2], const RasterKernels& kernels) {
+    const LatticeCovers& covers = grid.along_x;
+    std::vector<float> out(kSide * kSide), sums(kSide * kGroundPitch), x, z;
+    std::vector<float> shares(static_cast<std::size_t>(grid.size[2] + 3) * kGroundPitch);
+    GroundCover layer{};
+    layer.length = grid.size[0], layer.rows = grid.size[2], layer.row_step = covers.layout.layer_step;
+    layer.first_x = first[0], layer.first_z = first[1];
+    layer.shares = shares.data(), layer.sums = sums.data();
+    std::vector<bool> filled;
+    for (int y = 0; y < grid.size[1]; ++y) {
+        bool any = false;
+        for (int k = 0; k < grid.size[2]; ++k) any |= covers.filled[static_cast<std::size_t>(k * grid.size[1] + y)] != 0;
+        filled.push_back(any);
     }
-}
-
-/// Number of directions of equal light in which each cell's sky is hidden.
-std::vector<float> hidden_counts(const BitGrid& cells, int first_row, int end_row) {
-    Word counts[kCountBits][kSide] = {};
     for (int i = 0; i < kDirections; ++i) {
         // Points of a spiral that fills a disc evenly [Vog79], lifted to the half sphere above it: equal parts of its light (Malley).
         const double across = std::sqrt((i + 0.5) / kDirections), up = std::sqrt(1.0 - across * across);
         const SinCos turn = sin_cos(2.0 * kPi * kGoldenTurn * i);
-        Word hidden[kSide] = {};
-        add_hidden(cells, first_row, end_row, turn.cos * across / up, turn.sin * across / up, hidden);
-        for (int r = 0; r < kSide; ++r)
-            for (Word(&plane)[kSide] : counts) {
-                const Word carry = plane[r] & hidden[r];
-                plane[r] ^= hidden[r];
-                hidden[r] = carry;
-            }
-    }
-    std::vector<float> out;
-    for (int r = 0; r < kSide; ++r)
-        for (int x = 0; x < kSide; ++x) {
-            unsigned count = 0;
-            for (unsigned k = 0; k < kCountBits; ++k) count |= static_cast<unsigned>(counts[k][r] >> x & 1u) << k;
-            out.push_back(static_cast<float>(count));
+        const double towards[3] = {turn.cos * across / up, 1.0, turn.sin * across / up};
+        // Along a flat direction a layer's shadow is longer than a cell.
+        layer.steps = std::max(1, static_cast<int>(std::ceil(std::max(absolute(towards[0]), absolute(towards[2])))));
+        for (int k = 0; k < 3; ++k) {
+            layer.towards[k] = static_cast<float>(towards[k] / layer.steps);
+            layer.size[k] = static_cast<float>(absolute(towards[k]) / layer.steps);
         }
+        std::fill(sums.begin(), sums.end(), 0.0f);
+        for (int y = 0; y < grid.size[1]; ++y) {
+            if (!filled[static_cast<std::size_t>(y)]) continue;
+            const auto row = static_cast<std::size_t>(y);
+            for (std::size_t k = 0; k < kCoverParts; ++k) layer.parts[k] = covers.parts[k].data() + row * kCoverPitch;
+            layer.filled = covers.filled.data() + row;
+            x.clear(), z.clear();
+            for (int step = 0; step < layer.steps; ++step) {
+                const double height = std::max(0.0, y - ground + (step + 0.5) / layer.steps - 0.5), beyond = 2.0 * kSide;
+                x.push_back(static_cast<float>(std::clamp(towards[0] * height, -beyond, beyond)));
+                z.push_back(static_cast<float>(std::clamp(towards[2] * height, -beyond, beyond)));
+            }
+            layer.x = x.data(), layer.z = z.data();
+            kernels.cover_ground(layer);
+        }
+        for (int row = 0; row < kSide; ++row) {
+            const float* const from = &sums[static_cast<std::size_t>(row * kGroundPitch)];
+            float* const to = &out[static_cast<std::size_t>(row * kSide)];
+            for (int k = 0; k < kSide; ++k) to[k] += from[k] < 1.0f ? from[k] : 1.0f;
+        }
+    }
     return out;
 }
 
@@ -95,83 +82,45 @@ void blur(std::vector<float>& values, int step) {
     }
 }
 
-/// Calls visit(x, z) for each column that has a filled voxel in a row from first to before end.
-template <class Visit>
-void each_column(const FilledVoxels& voxels, int first, int end, const Visit& visit) {
-    for (int z = 0; z < voxels.size[2]; ++z) {
-        Word any = 0;
-        for (int y = std::max(first, 0); y < std::min(end, voxels.size[1]); ++y) any |= voxels.bits.row(z, y);
-        for (; any != 0; any &= any - 1) visit(std::countr_zero(any), z);
-    }
-}
-
-/// A rectangle around columns, voxels along x and z; empty while low > high.
-struct GroundBox {
-    double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
-    void add(int x, int z) {
-        const int at[2] = {x, z};
-        for (const int k : {0, 1}) low[k] = std::min(low[k], static_cast<double>(at[k])), high[k] = std::max(high[k], at[k] + 1.0);
-    }
-    [[nodiscard]] double width() const { return std::max(high[0] - low[0], high[1] - low[1]); }
-};
-
-/// Where a scene stands: all that lies a little above its lowest point.
-struct Foot {
-    GroundBox box;
-    double standing = 0;  ///< 1: the middle of the scene lies above it, and it is not narrow; down to 0
-};
-
-Foot foot_of(const FilledVoxels& voxels, double ground) {
-    GroundBox all;
-    double sum[2] = {0, 0}, count = 0;
-    int top = 0;
-    for (int y = 0; y < voxels.size[1]; ++y)
-        each_column(voxels, y, y + 1, [&](int x, int z) {
-            all.add(x, z);
-            sum[0] += x + 0.5, sum[1] += z + 0.5, count += 1.0, top = y + 1;
-        });
-    Foot foot;
-    const double reach = std::max(1.0, kFoot * (top - ground));
-    each_column(voxels, static_cast<int>(ground), static_cast<int>(ground + reach) + 1, [&](int x, int z) { foot.box.add(x, z); });
-    if (foot.box.low[0] > foot.box.high[0]) return foot;
-    double beside = 0.0;
+/// 1: the middle of the scene lies above its foot, which is not narrow; down to 0.
+double standing(const CoverGrid& grid) {
+    const Foot& foot = grid.foot;
+    if (foot.empty()) return 0.0;
+    const double width = std::max(grid.width[0], grid.width[2]);
+    double beside = 0.0, broad = 0.0;
     for (const int k : {0, 1}) {
-        const double middle = sum[k] / count;
-        beside = std::max(beside, std::max(foot.box.low[k] - middle, middle - foot.box.high[k]) / all.width());
+        const double low = double{foot.low[k]}, high = double{foot.high[k]};
+        beside = std::max(beside, std::max(low - grid.middle[k], grid.middle[k] - high) / width);
+        broad = std::max(broad, (high - low) / (kNarrow * width));
     }
-    const double broad = smoothstep(foot.box.width() / (kNarrow * all.width()));
-    foot.standing = (1.0 - smoothstep(beside / kUnstable)) * (kPalest + (1.0 - kPalest) * broad);
-    return foot;
+    return (1.0 - smoothstep(beside / kUnstable)) * (kPalest + (1.0 - kPalest) * smoothstep(broad));
 }
 
-ContactMap map_of(const FilledVoxels& voxels) {
+ContactMap map_of(const CoverGrid& grid, const RasterKernels& kernels) {
     ContactMap map;
-    map.ground = voxels.lowest;
-    if (voxels.bits.words.empty()) return map;
-    const double ground = (voxels.lowest - voxels.origin[1]) * voxels.per_length;
-    if (!(ground >= 0.0 && ground < voxels.size[1])) return map;
-    const Foot foot = foot_of(voxels, ground);
-    if (!(foot.standing > 0.0)) return map;
-    map.per_length = voxels.per_length / kCellVoxels;
-    int first[2];  // cell of the first voxel
+    map.ground = grid.lowest;
+    if (grid.empty()) return map;
+    const double stands = standing(grid);
+    if (!(stands > 0.0)) return map;
+    map.per_length = grid.per_length;
+    int first[2];
     double* const middle[2] = {&map.first_x, &map.first_z};
     for (const int k : {0, 1}) {
-        first[k] = (kSide - voxels.size[2 * k] / kCellVoxels) / 2;
-        *middle[k] = voxels.origin[2 * k] + (0.5 - first[k]) / map.per_length;
+        first[k] = (kSide - grid.size[2 * k]) / 2;
+        *middle[k] = grid.origin[2 * k] - first[k] / map.per_length;
     }
-    const int end_row = first[1] + (voxels.size[2] + kCellVoxels - 1) / kCellVoxels;
-    map.hidden = hidden_counts(cells_above(voxels, static_cast<int>(ground), first), first[1], end_row);
+    map.hidden = hidden_sums(grid, (grid.lowest - grid.origin[1]) * grid.per_length, first, kernels);
     blur(map.hidden, 1), blur(map.hidden, kSide);
     const auto beside_foot = [&](int cell, int axis) {
-        const double at = (cell - first[axis] + 0.5) * kCellVoxels;
-        return std::max({0.0, foot.box.low[axis] - at, at - foot.box.high[axis]});
+        const double at = cell - first[axis];
+        return std::max({0.0, double{grid.foot.low[axis]} - at, at - double{grid.foot.high[axis]}});
     };
-    const double reach = kReach * (std::max({voxels.size[0], voxels.size[1], voxels.size[2]}) - 2 * kFreeVoxels);
+    const double reach = kReach * std::max({grid.width[0], grid.width[1], grid.width[2]});
     float* out = map.hidden.data();
     for (int z = 0; z < kSide; ++z)
         for (int x = 0; x < kSide; ++x, ++out) {
             const double across = beside_foot(x, 0), along = beside_foot(z, 1), distance = std::sqrt(across * across + along * along);
-            *out = static_cast<float>(double{*out} * (foot.standing * smoothstep(1.0 - distance / reach) / kDirections));
+            *out = static_cast<float>(double{*out} * (stands * smoothstep(1.0 - distance / reach) / kDirections));
             if (*out == 0.0f) continue;
             map.low[0] = std::min(map.low[0], x - 1), map.high[0] = std::max(map.high[0], x + 1);
             map.low[1] = std::min(map.low[1], z - 1), map.high[1] = std::max(map.high[1], z + 1);
@@ -181,10 +130,10 @@ ContactMap map_of(const FilledVoxels& voxels) {
 
 }  // namespace
 
-void make_contact_map(const FilledVoxels& voxels, KeptContactMap& kept) {
-    if (kept.revision == voxels.revision) return;
-    kept.map = std::make_shared<const ContactMap>(map_of(voxels));
-    kept.revision = voxels.revision;
+void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, KeptContactMap& kept) {
+    if (kept.revision == covers.revision) return;
+    kept.map = std::make_shared<const ContactMap>(map_of(covers, kernels));
+    kept.revision = covers.revision;
 }
 
 ContactShadow::ContactShadow(std::shared_ptr<const ContactMap> map, const Camera& camera, int width, int height, float opacity)

@@ -2,13 +2,13 @@
 // picture's background. The ground is the level plane through the model's lowest point, and the eye lies above it, so what is drawn of the
 // model always lies before its shadow.
 //
-// Each layer of voxels is shifted along a direction down to the ground: what it covers there is hidden from the sky in that direction. Rows
-// are words, so 64 directions take .2 ms. Directions are spread so that each brings the same part of an even sky's light to the ground.
+// Each layer of covers is shifted along a direction down to the ground: what it covers there is hidden from the sky in that direction.
+// Directions are spread so that each brings the same part of an even sky's light to the ground.
 #pragma once
 
 #include "halflit/camera.hpp"
 #include "halflit/target.hpp"
-#include "raster/view/filled_voxels.hpp"
+#include "raster/view/cover_grid.hpp"
 
 #include <memory>
 #include <optional>
@@ -26,13 +26,13 @@ struct ContactMap {
 };
 
 struct KeptContactMap {
-    std::optional<SceneRevision> revision;  ///< of the voxels that it was made of; none: nothing is made yet
+    std::optional<SceneRevision> revision;  ///< of the covers that it was made of; none: nothing is made yet
     std::shared_ptr<const ContactMap> map;
 };
 
-/// Makes the map unless it is that of these voxels already. A scene stands if its middle lies above its foot, which is all that lies at
-/// most 2 % of its height, or a voxel, above its lowest point. Beside the foot the shadow fades, and below a narrow one it is paler.
-void make_contact_map(const FilledVoxels& voxels, KeptContactMap& kept);
+/// Makes the map unless it is that of these covers already. A scene stands if its middle lies above its foot. Beside the foot the shadow
+/// fades, and below a narrow one it is paler.
+void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, KeptContactMap& kept);
 
 /// A contact shadow in a picture.
 class ContactShadow {

@@ -1,25 +1,29 @@
 // Makes the coarse grid that tells where a scene hides its surroundings (shading/plan/sky_grid_plan.hpp).
 //
-// For each direction, layer after layer of the scene's voxels from its far end, a voxel is hidden if the next one towards it is filled or
-// hidden: rows of 64 voxels are words, so a direction takes some thousand operations.
+// For each direction, layer after layer of the lattice from its far end, the share that is hidden at a point is that of the place in the
+// next layer that the direction leads to, interpolated, and what is covered there. Covers add up to 1: the two halves of a wall between two
+// layers hide all.
 #pragma once
 
-#include "raster/view/filled_voxels.hpp"
+#include "raster/view/cover_grid.hpp"
+#include "shading/plan/light_plan.hpp"
 #include "shading/plan/sky_grid_plan.hpp"
 
-#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace halflit::raster {
 
 struct SkyGrid {
-    std::optional<SceneRevision> revision;  ///< of the voxels that it was made of; none: nothing is made yet
-    std::vector<std::int32_t> masks;        ///< empty: nothing in the scene hides anything
-    shading::SkyGridPlan place;             ///< size, origin and scale
+    std::optional<SceneRevision> revision;  ///< of the covers that it was made of; none: nothing is made yet
+    std::vector<float> hidden_shares;       ///< of each direction, those of all points; empty: nothing in the scene hides anything
+    std::vector<float> lights;              ///< of each direction, that the terms were made of
+    std::vector<float> terms;               ///< of what is hidden at each point
 };
 
-/// Makes the grid unless it is that of these voxels already.
-void make_sky_grid(const FilledVoxels& voxels, SkyGrid& grid);
+/// Makes the grid unless it is that of these covers and of this light already. lights: plan_lights(sky_lights(kGridDirections, ..)).
+[[nodiscard]] shading::SkyGridPlan make_sky_grid(const CoverGrid& covers, std::span<const shading::LightPlan> lights,
+                                                 const RasterKernels& kernels, SkyGrid& grid);
 
 }  // namespace halflit::raster

@@ -327,13 +327,13 @@ double sky_sum_error(const ShadingPlan& plan) { return 2.4e-7 * (static_cast<dou
 }  // namespace
 
 double sky_share_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, double normal_error, double most) {
-    if (plan.sky_grid.masks == nullptr) {
+    if (plan.sky_grid.hidden == nullptr) {
         const double slope = 8.0 * (static_cast<double>(material.lobe.power_minus_one) + 1.0);
         return costs.absolute((sky_sum_error(plan) + slope * normal_error) * most);
     }
-    // 45 roundings of a sum without signs; ten of T(n), whose terms are at most 13 times as large; and those of n.d - a, in the sum of L_d,
-    // which is at most 13 T(n). The share is never below kGridBounce, so the error is one of the light.
-    const double share_error = (1.0 - double{kGridBounce}) * (1.5e-5 + kGridSlope * normal_error);
+    // Ten roundings each of H(n) and T(n), whose terms are at most 4 times the sum of L_d. The share is never below kGridBounce, so the error
+    // is one of the light.
+    const double share_error = (1.0 - double{kGridBounce}) * (5e-5 + kGridSlope * normal_error);
     return costs.relative(share_error / double{kGridBounce});
 }
 
@@ -373,7 +373,7 @@ double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, cons
             // in reach.
             codes += sky_share_codes(costs, plan, material, s.normal_error, s.albedo * diffuse.most);
             const double focused = 16.0 / (1.0 - static_cast<double>(plan.sky_focus)) * mirror_error;
-            if (plan.sky_grid.masks == nullptr) codes += costs.absolute(share * (sky_sum_error(plan) + focused) * mirrored.most);
+            if (plan.sky_grid.hidden == nullptr) codes += costs.absolute(share * (sky_sum_error(plan) + focused) * mirrored.most);
         }
         diffuse_light += diffuse.most;
         shiny += mirrored.most;

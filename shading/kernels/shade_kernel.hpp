@@ -98,12 +98,20 @@ static void hidden(const shading::ShadingPlan& frame, const shading::MaterialPla
         TexelTaps taps;
         const V3 position = row3(block, shading::kPosX, lane), surface = normals(material, block, lane, taps).surface;
         const V3 looked_up_at = looked_up(frame, block, lane);
-        const HiddenShares share =
-            light.shadow_map == shading::kInSkyGrid
-                ? HiddenShares{hidden_share(grid_point(frame.sky_grid, looked_up_at, surface), light.source), F(0.0f)}
-                : hidden_share(frame, light, looked_up_at, surface, arrival(light, position).direction, fade, soft);
+        const HiddenShares share = hidden_share(frame, light, looked_up_at, surface, arrival(light, position).direction, fade, soft);
         store(core + lane, share.hard);
         store(excess + lane, share.soft);
+    }
+}
+
+static void hidden_sky(const shading::ShadingPlan& frame, const shading::MaterialPlan& material, const shading::FragmentBlock& block,
+                       int count, float (&terms)[shading::kGridTerms][shading::kBlockSize]) {
+    for (int lane = 0; lane < count; lane += kWidth) {
+        TexelTaps taps;
+        const V3 surface = normals(material, block, lane, taps).surface;
+        const GridLight light = grid_light(frame.sky_grid, looked_up(frame, block, lane), surface);
+        const F values[shading::kGridTerms] = {light.one, light.x, light.y, light.z, light.xx, light.yy, light.xy, light.xz, light.yz};
+        for (int k = 0; k < shading::kGridTerms; ++k) store(terms[k] + lane, values[k]);
     }
 }
 
@@ -165,7 +173,7 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,   light,        hidden, measure_cell, fit_cells, shade_alpha,
-                                            surface, count_lights, tone,   tone_samples, encode};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,     light,       hidden,  hidden_sky,   measure_cell, fit_cells,
+                                            shade_alpha, surface, count_lights, tone,    tone_samples, encode};
 }  // namespace shading
 }  // namespace halflit

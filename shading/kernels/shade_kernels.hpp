@@ -44,6 +44,10 @@ struct ShadeKernels {
     void (*hidden)(const ShadingPlan& frame, const MaterialPlan& material, const LightPlan& light, const FragmentBlock& block, int count,
                    float* core, float* excess);
 
+    /// The terms of the light that ShadingPlan::sky_grid hides (plan/sky_grid_plan.hpp), for lanes [0, count).
+    void (*hidden_sky)(const ShadingPlan& frame, const MaterialPlan& material, const FragmentBlock& block, int count,
+                       float (&terms)[kGridTerms][kBlockSize]);
+
     /// Writes centre and radii of the block's first `count` fragments as cell `cell` of the batch. Needs what `shade` needs.
     void (*measure_cell)(const MaterialPlan& material, const FragmentBlock& block, int count, CellBatch& batch, int cell);
 

@@ -27,8 +27,8 @@ HALFLIT_INLINE F seen_share(F hidden, F total) {
 template <bool kSpecular>
 HALFLIT_INLINE SkyVisibility sky_visibility(const ShadowReceiver& receiver, const shading::LobePlan& lobe, V3 normal, V3 reflection,
                                             F roughness) {
-    if (receiver.frame.sky_grid.masks != nullptr) {
-        const F seen = seen_in_grid(receiver.frame, receiver.position, receiver.surface_normal, normal);
+    if (const shading::SkyGridPlan& grid = receiver.frame.sky_grid; grid.hidden != nullptr) {
+        const F seen = seen_in_grid(grid, grid_light(grid, receiver.position, receiver.surface_normal), normal);
         return {{seen, seen, seen}, seen};
     }
     const F none(0.0f);

@@ -10,9 +10,6 @@
 namespace halflit::shading {
 
 /// A light as a kernel sees it.
-/// LightPlan::shadow_map of a light of the surroundings that ShadingPlan::sky_grid hides; `source` is its direction.
-inline constexpr std::int32_t kInSkyGrid = -2;
-
 struct LightPlan {
     LightType type;
     std::int32_t source;  ///< index into the lights that were planned
@@ -22,7 +19,7 @@ struct LightPlan {
     float inv_range_squared;         ///< 1 / range^2; 0: no limit
     float min_distance_squared;      ///< source radius squared
     float cone_cutoff;               ///< spot: 1 - cos(outer angle)
-    std::int32_t shadow_map = -1;    ///< index into ShadingPlan::shadow_maps; -1: casts no shadow; kInSkyGrid
+    std::int32_t shadow_map = -1;    ///< index into ShadingPlan::shadow_maps; -1: casts no shadow
     float cone_scale;                ///< spot: 1 / (cos(inner) - cos(outer)); see kernels/light_kernel.hpp
     float half_cone_power;           ///< spot: half the power of the cosine; 0: none
     float cutoff_squared;            ///< point, spot: squared distance from which on the light is left out; 0: no limit but the range

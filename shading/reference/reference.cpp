@@ -307,14 +307,15 @@ struct SkySeen {
 /// The share of it by the grid (plan/sky_grid_plan.hpp).
 double seen_in_grid(Vec3d n, const Surroundings& around) {
     double hidden = 0.0, total = 0.0, all = 0.0;
-    for (std::size_t i = 0; i < around.sky.size(); ++i) {
-        const LightPlan& light = around.sky[i];
+    const double factors[kGridTerms] = {1, n.x, n.y, n.z, n.x * n.x, n.y * n.y, n.x * n.y, n.x * n.z, n.y * n.z};
+    for (std::size_t k = 0; k < around.sky_terms.size(); ++k) hidden += around.sky_terms[k] * factors[k];
+    for (const LightPlan& light : around.sky) {
         const double cosine = dot(n, Vec3d{light.to_light[0], light.to_light[1], light.to_light[2]}), l = double{light.brightness};
-        hidden += l * std::max(cosine - kGridWayTangent, 0.0) * around.hidden_sky[i].hard;
         total += l * (kGridLobe.constant + kGridLobe.linear * cosine + kGridLobe.square * cosine * cosine);
         all += l;
     }
-    return 1.0 - std::min(hidden / std::max({total, kLeastGridTotal * all, 1e-30}), 1.0) * (1.0 - double{kGridBounce});
+    const double share = hidden / std::max({total, kLeastGridTotal * all, 1e-30}), least = double{kGridThreshold};
+    return 1.0 - std::clamp((share - least) / (1.0 - least), 0.0, 1.0) * (1.0 - double{kGridBounce});
 }
 
 /// Shares of the light of the surroundings that a surface sees.
@@ -626,6 +627,7 @@ Vec3d light_through(const FrameInputs& frame, const Material& material, SlotMask
     lights.ambient = {}, sky.lights = {};
     Surroundings far = around, dark;
     far.hidden = dark.hidden = around.hidden_far, far.hidden_sky = around.hidden_sky_far;
+    far.sky_terms = around.sky_terms_far;
     Surface turned = surface;
     turned.normal = scale(surface.normal, -1);
     const Vec3d position = row3(block, kPosX, lane);

@@ -57,6 +57,7 @@ struct Surroundings {
     std::span<const Hidden> hidden_far{}, hidden_sky_far{};  ///< the same for the far side; of materials with diffuse transmission
     double sky_focus = 0;                                    ///< ShadingPlan::sky_focus
     const SkyGridPlan* sky_grid = nullptr;                   ///< hides it, in place of maps
+    std::span<const double> sky_terms{}, sky_terms_far{};    ///< of the light that it hides, and the same for the far side
     /// The picture behind glass that blurs or bends light; null: the light behind is kept as it is.
     const BehindPlan* behind = nullptr;
 };

@@ -134,6 +134,31 @@ TEST_CASE("contact shadow: the share of the sky that the model hides from the gr
     }
 }
 
+TEST_CASE("contact shadow: its opacity follows what covers the ground, and how opaque that is", "[raster][contact-shadow]") {
+    // The darkest ground below a table whose top is a plate, or bars that cover a tenth of it.
+    const auto darkest = [](bool plate, float transmission) {
+        std::vector<Block> all;
+        for (const float x : {-0.7f, 0.7f})
+            for (const float z : {-0.7f, 0.7f}) all.push_back({{x, 0.25f, z}, {0.02f, 0.25f, 0.02f}});
+        if (plate) all.push_back({{0, 0.52f, 0}, {0.8f, 0.02f, 0.8f}});
+        for (int k = 0; !plate && k < 8; ++k) all.push_back({{-0.7f + 0.2f * static_cast<float>(k), 0.52f, 0}, {0.01f, 0.01f, 0.8f}});
+        Scene scene = blocks(all);
+        scene.materials[0].transmission = transmission;
+        const std::vector<float> picture = drawn(scene, looking(kEye), shadowed());
+        float most = 0;
+        for (std::size_t i = 0; i < picture.size(); i += 4)
+            if (picture[i] == 0.0f && picture[i + 3] < 1.0f) most = std::max(most, picture[i + 3]);
+        return most;
+    };
+    const float plate = darkest(true, 0), bars = darkest(false, 0), glass = darkest(true, 1);
+    CAPTURE(plate, bars, glass);
+    CHECK(plate > 0.4f);
+    CHECK(bars > 0.02f);
+    CHECK(bars < 0.35f * plate);
+    CHECK(glass > 0.05f);
+    CHECK(glass < 0.4f * plate);
+}
+
 TEST_CASE("contact shadow: it is a black surface before the background, whatever that is", "[raster][contact-shadow]") {
     const Scene scene = cube();
     const std::vector<float> alone = drawn(scene, looking(kEye), shadowed(0.7f));

@@ -351,6 +351,11 @@ TEST_CASE("planes: a near plane of 0 follows the scene", "[raster][planes]") {
         CHECK(completed(camera, scene_bounds(scene)).near_z == 0.25f);
     }
     CHECK(completed(Camera{}, Bounds{}).near_z == 0.1f);
+    // Beside a box that is much larger than the distance to it.
+    Bounds ground;
+    ground.add({-1e6f, -1, -1e6f}), ground.add({1e6f, 1, 1e6f});
+    CHECK(completed(camera_at({4, 2, 5}, {0, -0.3f, 0}, 0.9f, 0.0f), ground).near_z == 0.25f);
+    CHECK(completed(camera_at({4, 0, 5}, {0, -0.3f, 0}, 0.9f, 0.0f), ground).near_z == Approx(1e-4 * double{ground.radius()}));
 }
 
 TEST_CASE("planes: depth of a tilted plane is where its view ray meets it", "[raster][planes]") {

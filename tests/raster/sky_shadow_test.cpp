@@ -11,6 +11,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/isas.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -274,6 +275,145 @@ TEST_CASE("sky shadows: what the grid hides on a wide floor fades before its bor
     CHECK(pairs > 50);
     CHECK(shadowed > 200);
     CHECK(at_border < 0.1);  // 0.08; 0.19 where shares end at once
+}
+
+/// The model in another unit of length.
+Model scaled(const Model& model, float by) {
+    Model out = model;
+    for (Mesh& mesh : out.scene.meshes)
+        for (Vec3f& p : mesh.positions) p = p * by;
+    const auto move = [by](Mat4& m) { m.c[3] = {m.c[3].x * by, m.c[3].y * by, m.c[3].z * by, m.c[3].w}; };
+    for (Instance& instance : out.scene.instances) move(instance.world_from_object);
+    move(out.camera.world_from_camera);
+    return out;
+}
+
+/// The largest difference of two pictures in codes, and the share of values that differ by more than two.
+struct Difference {
+    double worst = 0, far_off = 0;
+};
+Difference between(const std::vector<float>& a, const std::vector<float>& b) {
+    Difference out;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double apart = std::abs(code(double{a[i]}) - code(double{b[i]}));
+        out.worst = std::max(out.worst, apart);
+        out.far_off += apart > 2 ? 1.0 / static_cast<double>(a.size()) : 0.0;
+    }
+    return out;
+}
+
+TEST_CASE("sky shadows: the unit of length does not matter to the grid", "[raster][sky-shadows]") {
+    const EnvironmentImage sky = uneven_sky();
+    for (const auto& make : {box_on_plane, ball_in_bowl}) {
+        const Model model = make(sky);
+        const std::vector<float> picture = draw(model, kSkyShadowsAuto);
+        CHECK(picture != draw(model, 0));
+        for (const int power : {-60, -10, 2, 30, 60}) CHECK(draw(scaled(model, std::ldexp(1.0f, power)), kSkyShadowsAuto) == picture);
+        for (const float by : {3.0f, 2.54f, 1000.0f, 1e-3f, 1e18f}) {
+            const Difference difference = between(draw(scaled(model, by), kSkyShadowsAuto), picture);
+            const Difference edges = between(draw(scaled(model, by), 0), draw(model, 0));
+            CAPTURE(model.name, by, difference.worst, difference.far_off, edges.far_off);
+            CHECK(difference.far_off <= edges.far_off + 1e-3);
+        }
+    }
+}
+
+TEST_CASE("sky shadows: a part that moves out of view leaves what stands still as it is", "[raster][sky-shadows]") {
+    for (const float x : {0.0f, 2.5f}) {
+        const auto drawn = [&](float height) {
+            Model model = box_on_plane(uneven_sky());
+            add(model.scene, make_sphere_of(0.1f, 200), {x, height, x});
+            model.camera = looking({2, 1.5f, 3}, {0, 0.2f, 0});
+            return draw(model, kSkyShadowsAuto);
+        };
+        for (const float by : {0.05f, 0.4f}) {
+            const Difference difference = between(drawn(3.2f), drawn(3.2f + by));
+            CAPTURE(x, by, difference.worst, difference.far_off);
+            CHECK(difference.far_off <= 1e-3);
+        }
+    }
+}
+
+TEST_CASE("sky shadows: light passes through the backs of single-sided walls alone", "[raster][sky-shadows]") {
+    // A room whose walls face inwards, seen through the nearest of them.
+    Model model{"a room", white_scene(uneven_sky()), looking({0, 0.3f, 6}, {0, 0, 0}), {}};
+    Mesh walls = make_box({1, 1, 1});
+    for (std::size_t i = 0; i + 2 < walls.indices.size(); i += 3) std::swap(walls.indices[i + 1], walls.indices[i + 2]);
+    for (Vec3f& normal : walls.normals) normal = normal * -1.0f;
+    add(model.scene, std::move(walls), {0, 0, 0});
+    const auto middle = [](const std::vector<float>& picture) {
+        return double{picture[static_cast<std::size_t>(4 * (kHeight / 2 * kWidth + kWidth / 2) + 1)]};
+    };
+    const double open = middle(draw(model, 0));
+    CHECK(open > 0.1);
+    CHECK(middle(draw(model, kSkyShadowsAuto)) == Approx(open));
+    // The far wall sees the near ones turn their backs to the sky no more. The camera stands inside.
+    model.scene.materials[0].double_sided = true;
+    model.camera = looking({0, 0, 0.9f}, {0, 0, -1});
+    CHECK(middle(draw(model, kSkyShadowsAuto)) < 0.6 * middle(draw(model, 0)));
+}
+
+TEST_CASE("sky shadows: surfaces hide what they cover, as far as they are opaque", "[raster][sky-shadows]") {
+    // Light on the floor's middle, below a plate, a grate that covers a fifth of its area, and glass.
+    const auto hidden = [](bool grate, float alpha, float transmission) {
+        Model model{"a plate", white_scene(uneven_sky()), looking({2, 0.3f, 2}, {0, 0, 0}), {}};
+        add(model.scene, make_box({1, 0.05f, 1}), {0, -0.05f, 0});
+        model.scene.materials.push_back(model.scene.materials[0]);
+        Material& material = model.scene.materials[1];
+        if (alpha < 1) material.alpha_mode = AlphaMode::blend, material.base_color.w = alpha;
+        material.transmission = transmission;
+        const int bars = grate ? 10 : 1;
+        for (int k = 0; k < bars; ++k) {
+            const float at = bars == 1 ? 0.0f : -0.9f + 0.2f * static_cast<float>(k);
+            add(model.scene, make_box({bars == 1 ? 1.0f : 0.02f, 0.02f, 1}), {at, 0.7f, 0});
+            model.scene.meshes.back().material = 1;
+        }
+        const auto middle = static_cast<std::size_t>(4 * (kHeight / 2 * kWidth + kWidth / 2) + 1);
+        return 1.0 - double{draw(model, kSkyShadowsAuto)[middle]} / double{draw(model, 0)[middle]};
+    };
+    const double plate = hidden(false, 1, 0), grate = hidden(true, 1, 0), faint = hidden(false, 0.5f, 0), glass = hidden(false, 1, 1);
+    CAPTURE(plate, grate, faint, glass);
+    CHECK(plate > 0.3);
+    CHECK(grate > 0.05 * plate);
+    CHECK(grate < 0.4 * plate);
+    CHECK(faint > 0.3 * plate);
+    CHECK(faint < 0.7 * plate);
+    CHECK(glass > 0.05 * plate);
+    CHECK(glass < 0.35 * plate);
+}
+
+TEST_CASE("sky shadows: the size of a large ground does not matter to what stands on it", "[raster][sky-shadows]") {
+    const auto drawn = [](float half) {
+        Model model{"a ball on a ground", white_scene(uneven_sky()), looking({2, 2, 4}, {0, 0.8f, 0}), {}};
+        add(model.scene, make_sphere(1.0f, 24, 24), {0, 1, 0});
+        add(model.scene, make_plane(half, 1), {0, 0, 0});
+        return model;
+    };
+    const std::vector<float> wide = draw(drawn(100), kSkyShadowsAuto), wider = draw(drawn(3000), kSkyShadowsAuto);
+    const Difference edges = between(draw(drawn(100), 0), draw(drawn(3000), 0));
+    CHECK(between(wide, wider).far_off <= edges.far_off + 1e-3);
+    CHECK(between(wide, draw(drawn(100), 0)).far_off > 0.02);
+}
+
+TEST_CASE("sky shadows: the order of instances does not matter to the grid", "[raster][sky-shadows]") {
+    Model model = niche(uneven_sky());
+    const std::vector<float> picture = draw(model, kSkyShadowsAuto);
+    std::reverse(model.scene.instances.begin(), model.scene.instances.end());
+    CHECK(between(picture, draw(model, kSkyShadowsAuto)).worst < 0.01);
+}
+
+TEST_CASE("sky shadows: convex bodies do not hide light from themselves", "[raster][sky-shadows]") {
+    for (const bool studio : {false, true})
+        for (const int kind : {0, 1, 2, 3}) {
+            const bool double_sided = kind % 2 != 0;
+            Model model{"one body", white_scene(studio ? studio_image() : uneven_sky()), looking({1, 2, 3}, {0, 0, 0}), {}};
+            model.scene.materials[0].double_sided = double_sided;
+            Mesh body = kind < 2 ? make_sphere(1.0f, 48, 48) : make_box({1, 0.8f, 0.9f});
+            add(model.scene, std::move(body), {0, 0, 0});
+            const Difference difference = between(draw(model, kSkyShadowsAuto), draw(model, 0));
+            CAPTURE(studio, double_sided, difference.worst);
+            CHECK(difference.worst < 2);
+        }
 }
 
 TEST_CASE("sky shadows: what nothing hides keeps its bits", "[raster][sky-shadows]") {

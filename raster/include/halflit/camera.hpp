@@ -88,7 +88,8 @@ inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},  
 [[nodiscard]] HALFLIT_API Mat4 orbit(Vec3d target, double azimuth_deg, double elevation_deg, double distance);
 
 /// The camera with what it leaves to the scene, whose box is `scene`: the near plane of a perspective camera whose near_z is 0 is half way
-/// to the nearest corner of the box, or 1e-4 of the scene's size if that is more; 0.1 for an empty box. Frames are drawn by it.
+/// to the nearest corner of the box, or if that is more 1e-4 of the scene's size, but at most a quarter of the distance to the box; 0.1 for
+/// an empty box. Frames are drawn by it.
 [[nodiscard]] HALFLIT_API Camera completed(Camera camera, const Bounds& scene);
 
 /// Fails (usage) for a camera whose world_from_camera mirrors, or whose sides are not in order: it would show things inside out.
