@@ -45,7 +45,7 @@ constexpr double kAngleSlack = 0.25 * (kPi / 180);
 
 /// A triangle is a strip's if two of its corners are so much nearer to each other than to the third, its tip, and if the triangles beside
 /// it have no tip there. A strip that fills a twisted face bends to and fro at its edges, as its triangles follow one boundary and the
-/// other in turn. These bends are smooth up to kMostWidened times a crease if both of a triangle's are alike.
+/// other in turn. These bends are smooth up to kMostWidened times a crease if both of a triangle's are alike, and those of one beside it.
 constexpr double kSlender = 0.25, kLeastAngleBeside = 0.5;  // rad
 constexpr double kAlike = 0.5;
 
@@ -72,9 +72,35 @@ public:
         each_bend([&](double sine, double cosine) { bends.push_back(angle_of(sine, cosine)); });
     }
 
-    /// Marks the edges of strips at a place where the tips of some lie.
-    void mark_strips(std::span<const std::uint32_t> corners, std::vector<std::uint8_t>& marks) {
+    /// Marks tips at a place whose triangles bend to and fro.
+    void mark_tips(std::span<const std::uint32_t> corners, std::vector<std::uint8_t>& tips) {
         gather(corners);
+        find_beside(corners);
+        for (std::uint32_t i = 0; i < wedges_.size(); ++i) {
+            if (!is_tip(corners[i])) continue;
+            const double first = bend_of_[2 * i], last = bend_of_[2 * i + 1];
+            const double least = std::min(std::abs(first), std::abs(last)), most = std::max(std::abs(first), std::abs(last));
+            if (!(first * last < 0.0) || least < kAlike * most || most > kMostWidened * crease_rad_) continue;
+            if (wedges_[beside_[2 * i]].angle < kLeastAngleBeside || wedges_[beside_[2 * i + 1]].angle < kLeastAngleBeside) continue;
+            tips[corners[i]] = 1;
+        }
+    }
+
+    /// Marks the edges at such tips at a place, where a triangle beside has one too.
+    void mark_strips(std::span<const std::uint32_t> corners, const std::vector<std::uint8_t>& tips, std::vector<std::uint8_t>& marks) {
+        gather(corners);
+        find_beside(corners);
+        const auto has_tip = [&](std::uint32_t wedge) {
+            const std::uint32_t corner = corners[wedge], next = following(corner);
+            return (tips[corner] | tips[next] | tips[following(next)]) != 0;
+        };
+        for (std::uint32_t i = 0; i < wedges_.size(); ++i)
+            if (tips[corners[i]] != 0 && (has_tip(beside_[2 * i]) || has_tip(beside_[2 * i + 1])))
+                marks[corners[i]] = marks[following(following(corners[i]))] = 1;
+    }
+
+    /// Finds the bends at the two edges of each wedge of the gathered place, and the wedges across them.
+    void find_beside(std::span<const std::uint32_t> corners) {
         bend_of_.assign(2 * wedges_.size(), 0.0);
         beside_.assign(2 * wedges_.size(), kNone);
         for (std::size_t i = 0; i < edges_.size(); i = end_of(i)) {
@@ -88,14 +114,6 @@ public:
                 const std::size_t side = 2 * std::size_t{edge.wedge} + (edge.leaves ? 0 : 1);
                 bend_of_[side] = bend, beside_[side] = neighbour;
             }
-        }
-        for (std::uint32_t i = 0; i < wedges_.size(); ++i) {
-            if (!is_tip(corners[i])) continue;
-            const double first = bend_of_[2 * i], last = bend_of_[2 * i + 1];
-            const double least = std::min(std::abs(first), std::abs(last)), most = std::max(std::abs(first), std::abs(last));
-            if (!(first * last < 0.0) || least < kAlike * most || most > kMostWidened * crease_rad_) continue;
-            if (wedges_[beside_[2 * i]].angle < kLeastAngleBeside || wedges_[beside_[2 * i + 1]].angle < kLeastAngleBeside) continue;
-            marks[corners[i]] = marks[following(following(corners[i]))] = 1;
         }
     }
 
@@ -322,21 +340,30 @@ bool is_scan(Soup& soup, const CornersOfPlaces& corners) {
 /// The edges of strips that bend to and fro, as NormalMaker takes them; empty: there are none.
 std::vector<std::uint8_t> find_strips(Soup& soup, const CornersOfPlaces& corners, double crease_deg, int threads) {
     const std::size_t parts = parts_of(corners.places(), kPlacesAThread, threads);
-    std::vector<std::uint8_t> marks(soup.position_of.size());
-    std::vector<std::uint8_t> some(parts);
-    in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-        std::vector<Vec3f> none;
-        NormalMaker maker(soup, crease_deg, false, {}, none, 0);
-        TimeCheck check;
-        for (std::size_t place = begin; place < end; ++place) {
-            check();
-            const auto here = corners.at(static_cast<std::uint32_t>(place));
-            if (std::none_of(here.begin(), here.end(), [&](std::uint32_t corner) { return maker.is_tip(corner); })) continue;
-            maker.mark_strips(here, marks);
-            some[part] = 1;
-        }
-    });
-    if (std::count(some.begin(), some.end(), 1) == 0) marks.clear();
+    const auto each_place = [&](const auto& is_wanted, const auto& visit) {
+        std::vector<std::uint8_t> some(parts);
+        in_parts(corners.places(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+            std::vector<Vec3f> none;
+            NormalMaker maker(soup, crease_deg, false, {}, none, 0);
+            TimeCheck check;
+            for (std::size_t place = begin; place < end; ++place) {
+                check();
+                const auto here = corners.at(static_cast<std::uint32_t>(place));
+                if (std::none_of(here.begin(), here.end(), [&](std::uint32_t corner) { return is_wanted(maker, corner); })) continue;
+                visit(maker, here);
+                some[part] = 1;
+            }
+        });
+        return std::count(some.begin(), some.end(), 1) > 0;
+    };
+    std::vector<std::uint8_t> tips(soup.position_of.size()), marks;
+    if (!each_place([](const NormalMaker& maker, std::uint32_t corner) { return maker.is_tip(corner); },
+                    [&](NormalMaker& maker, std::span<const std::uint32_t> here) { maker.mark_tips(here, tips); }))
+        return marks;
+    marks.resize(tips.size());
+    if (!each_place([&](const NormalMaker&, std::uint32_t corner) { return tips[corner] != 0; },
+                    [&](NormalMaker& maker, std::span<const std::uint32_t> here) { maker.mark_strips(here, tips, marks); }))
+        marks.clear();
     return marks;
 }
 
