@@ -49,21 +49,27 @@ inline constexpr int kGridTerms = 9;
 /// Adds the light A(n.d) of a direction.
 inline void add_grid_light(double light, const double (&d)[3], double (&terms)[kGridTerms]) {
     const double once = light * kGridLobe.linear, twice = light * kGridLobe.square, zz = twice * d[2] * d[2];
-    const double more[kGridTerms] = {light * kGridLobe.constant + zz, once * d[0],           once * d[1],           once * d[2],
-                                     twice * d[0] * d[0] - zz,        twice * d[1] * d[1] - zz, 2.0 * twice * d[0] * d[1],
-                                     2.0 * twice * d[0] * d[2],       2.0 * twice * d[1] * d[2]};
+    const double more[kGridTerms] = {light * kGridLobe.constant + zz,
+                                     once * d[0],
+                                     once * d[1],
+                                     once * d[2],
+                                     twice * d[0] * d[0] - zz,
+                                     twice * d[1] * d[1] - zz,
+                                     2.0 * twice * d[0] * d[1],
+                                     2.0 * twice * d[0] * d[2],
+                                     2.0 * twice * d[1] * d[2]};
     for (int k = 0; k < kGridTerms; ++k) terms[k] += more[k];
 }
 
 /// Point p = z * layer + y * row + x of the lattice lies at origin + (x, y, z) / per_length. Its terms of H are hidden[kGridTerms p ..].
 struct SkyGridPlan {
-    const float* hidden = nullptr;      ///< null: there is no grid
-    std::int32_t size[3] = {0, 0, 0};   ///< points, at most 32 each
-    std::int32_t row = 0, layer = 0;    ///< steps in p
-    float origin[3] = {0, 0, 0};        ///< world space
-    float per_length = 0;               ///< points in a world unit
-    float total[kGridTerms] = {};       ///< terms of T
-    float least_total = 0;              ///< T(n) is held above it
+    const float* hidden = nullptr;     ///< null: there is no grid
+    std::int32_t size[3] = {0, 0, 0};  ///< points, at most 32 each
+    std::int32_t row = 0, layer = 0;   ///< steps in p
+    float origin[3] = {0, 0, 0};       ///< world space
+    float per_length = 0;              ///< points in a world unit
+    float total[kGridTerms] = {};      ///< terms of T
+    float least_total = 0;             ///< T(n) is held above it
 };
 
 }  // namespace halflit::shading
