@@ -64,8 +64,7 @@ inline void cover_ground(const GroundCover& s) {
         float* const out = s.shares + (r + 1) * kGroundPitch + 1;
         const std::int64_t at = r * s.row_step;
         const bool filled = s.filled[at / kCoverPitch] != 0;
-        for (int i = 0; i < kCoverPitch; i += kWidth)
-            store(out + i, filled ? cover_towards(s.parts, at + i, s.towards, s.size) : F(0.0f));
+        for (int i = 0; i < kCoverPitch; i += kWidth) store(out + i, filled ? cover_towards(s.parts, at + i, s.towards, s.size) : F(0.0f));
     }
     for (int step = 0; step < s.steps; ++step) {
         const float x = s.x[step], z = s.z[step];

@@ -211,7 +211,7 @@ struct DepthRange {
 inline constexpr int kCoverParts = 7;
 /// Points of a row of covers in memory; those beyond the lattice's have no cover.
 inline constexpr int kCoverPitch = 32;
-inline constexpr int kSweepPitch = 40;                     ///< of rows with a zero before and after
+inline constexpr int kSweepPitch = 40;                      ///< of rows with a zero before and after
 inline constexpr int kGroundCells = 64, kGroundPitch = 80;  ///< of a row of the ground's cells; and of one in memory
 
 /// Rows of kCoverPitch points, which lie in layers: their numbers, and steps in memory in floats.

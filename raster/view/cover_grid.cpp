@@ -15,9 +15,9 @@ constexpr float kPiece = 1.5f;          ///< longest side of a piece, spacings
 constexpr float kBroad = 0.25f;         ///< least height of a triangle that is cut into pieces like it, over its longest side
 constexpr float kBehind = 0.5f;         ///< from a single-sided triangle to where it counts, spacings
 constexpr float kThroughGlass = 0.75f;  ///< of the light that a surface transmits; the rest is bent aside
-constexpr double kFoot = 0.02;         ///< height of the foot over that of the scene
+constexpr double kFoot = 0.02;          ///< height of the foot over that of the scene
 constexpr double kBeside = 0.5;         ///< of a large ground, around what stands on it, over the longest side of that
-constexpr double kLeastFoot = 0.5;     ///< the same, spacings
+constexpr double kLeastFoot = 0.5;      ///< the same, spacings
 
 /// Pieces after which large triangles are cut no more: a second or so.
 constexpr std::uint64_t kMostPieces = std::uint64_t{1} << 26, kBetweenLooks = std::uint64_t{1} << 18, kUnitsAPiece = 16;
@@ -111,8 +111,8 @@ private:
         const float u = at.x - static_cast<float>(x), v = at.y - static_cast<float>(y), w = at.z - static_cast<float>(z);
         const auto positive = [](float a) { return a > 0.0f ? a : 0.0f; };
         const float l1 = std::abs(area.x) + std::abs(area.y) + std::abs(area.z);
-        const float part[8] = {positive(area.x), positive(area.y), positive(area.z), positive(-area.x), positive(-area.y), positive(-area.z),
-                               double_sided_ ? l1 : 0.0f, 0.0f};
+        const float part[8] = {positive(area.x),  positive(area.y),  positive(area.z),          positive(-area.x),
+                               positive(-area.y), positive(-area.z), double_sided_ ? l1 : 0.0f, 0.0f};
         Areas* const first = &areas[static_cast<std::size_t>((z * size_[1] + y) * size_[0] + x)];
         const std::ptrdiff_t row = size_[0], layer = row * size_[1];
         const auto share = [&](Areas* to, float weight) {
@@ -159,8 +159,9 @@ float opacity_of(const Scene& scene, const Material& material) {
     if (material.alpha_mode != AlphaMode::opaque) {
         opacity = std::clamp(material.base_color.w, 0.0f, 1.0f);
         const int index = material.textures[TextureSlot::base_color].texture;
-        const Texture* const texture =
-            index >= 0 && static_cast<std::size_t>(index) < scene.textures.size() ? &scene.textures[static_cast<std::size_t>(index)] : nullptr;
+        const Texture* const texture = index >= 0 && static_cast<std::size_t>(index) < scene.textures.size()
+                                           ? &scene.textures[static_cast<std::size_t>(index)]
+                                           : nullptr;
         if (texture != nullptr && !texture->levels().empty())
             opacity *= static_cast<float>(texture->data()[4 * texture->levels().back().offset + 3]) * (1.0f / 65535.0f);
         else if (material.alpha_mode == AlphaMode::mask)

@@ -23,8 +23,8 @@ inline constexpr int kMostCoverPoints = 28;
 static_assert(kMostCoverPoints <= kCoverPitch);
 inline constexpr float kCoverMargin = 1.5f;
 
-/// Covers of the points of a lattice. The share of the light from a direction d that is hidden at a point is a sum over the axes, held at 1:
-/// max(0, facing.d) + back max(0, -facing.d) + both.|d|. Kernels read it as rows of each number.
+/// Covers of the points of a lattice. The share of the light from a direction d that is hidden at a point is a sum over the axes, held at
+/// 1: max(0, facing.d) + back max(0, -facing.d) + both.|d|. Kernels read it as rows of each number.
 struct LatticeCovers {
     CoverLayout layout;
     /// facing: the triangles' area vector, by their fronts, over the square of the spacing; both: the areas across each axis that face

@@ -68,8 +68,7 @@ std::vector<float> hidden_terms(const std::vector<float>& shares, std::span<cons
     }
     const std::size_t points = shares.size() / directions.size();
     std::vector<float> out(points * shading::kGridTerms);
-    kernels.sum_grid_terms(
-        {shares.data(), factors.data(), shading::kGridDirections, static_cast<std::int64_t>(points), out.data()});
+    kernels.sum_grid_terms({shares.data(), factors.data(), shading::kGridDirections, static_cast<std::int64_t>(points), out.data()});
     return out;
 }
 

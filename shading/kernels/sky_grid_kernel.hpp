@@ -1,5 +1,5 @@
-// Look-ups in the grid of what hides the surroundings: the terms of the eight points of the lattice around a fragment. Points at the back of
-// the fragment's plane do not count.
+// Look-ups in the grid of what hides the surroundings: the terms of the eight points of the lattice around a fragment. Points at the back
+// of the fragment's plane do not count.
 #pragma once
 
 #include "shading/kernels/vector.hpp"
@@ -80,13 +80,14 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
     if (together) {
         for (int k = 0; k < count; ++k) {
             const float* const point = grid.hidden + leading + steps[k];
-            out.add(weights[k] * factor, [point](int term) __attribute__((always_inline)) { return F(point[term]); });
+            out.add(
+                weights[k] * factor, [point](int term) __attribute__((always_inline)) { return F(point[term]); });
         }
     } else {
         for (int k = 0; k < count; ++k) {
             const I point = first + I(steps[k]);
-            out.add(weights[k] * factor,
-                    [&](int term) __attribute__((always_inline)) { return gather(grid.hidden + term, point); });
+            out.add(
+                weights[k] * factor, [&](int term) __attribute__((always_inline)) { return gather(grid.hidden + term, point); });
         }
     }
     return out;
@@ -94,12 +95,12 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
 
 /// Share of the light of the surroundings that reaches a surface, in [kGridBounce, 1]. `normal`: that light is received by.
 HALFLIT_INLINE F seen_in_grid(const shading::SkyGridPlan& grid, const GridLight& hidden, V3 normal) {
-    constexpr float kThreshold = shading::kGridThreshold;
     GridLight all = no_grid_light();
-    all.add(F(1.0f), [&](int term) __attribute__((always_inline)) { return F(grid.total[term]); });
+    all.add(
+        F(1.0f), [&](int term) __attribute__((always_inline)) { return F(grid.total[term]); });
     const F total = vmax(all.at(normal), F(grid.least_total));
-    const F share = (vdiv(hidden.at(normal), total) - F(kThreshold)) * F(1.0f / (1.0f - kThreshold));
-    return F(1.0f) - clamp(share, F(0.0f), F(1.0f)) * F(1.0f - shading::kGridBounce);
+    const F share = vdiv(hidden.at(normal), total), above = share - F(shading::kGridThreshold);
+    return F(1.0f) - clamp(vmin(share, above + above), F(0.0f), F(1.0f)) * F(1.0f - shading::kGridBounce);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE
