@@ -131,7 +131,7 @@ def settings():
     constants = dict(re.findall(r"^inline constexpr int (\w+) = (\d+);", sources[0], re.M))
     usual = {
         place: constants.get(value, value)
-        for place, value in re.findall(r"settings\.((?:shading\.)?\w+) = ([\w:.]+);", text_of(USUAL_SETTINGS))
+        for place, value in re.findall(r"^    settings\.((?:shading\.)?\w+) = ([\w:.]+);", text_of(USUAL_SETTINGS), re.M)
     }
     members = {}  # place -> (type, default, documentation)
     for source, struct, prefix in ((sources[0], "struct Settings {", ""), (sources[1], "struct ShadingSettings {", "shading.")):

@@ -86,7 +86,7 @@ class PictureOptions(ViewOptions, total=False):
         normal_scale: factor on x and y of all normal maps, a coat's too; 0: surfaces have the normals of their meshes (1)
         shading_rate: how often light is evaluated: "flat", "gouraud", "pixel" (pixel)
         environment_bands: of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance (0)
-        shadows: effect of shadows on wrapped light; off: no shadow maps are drawn: "off", "hard", "soft_split" (off)
+        shadows: effect of shadows on wrapped light; off: no shadow maps are drawn: "off", "hard", "soft_split" (soft_split)
         shadow_size: Texels on a side of a shadow map, a multiple of 64 from 64 to 4096; a cube's faces have half. 0: three for two
             pixels of what is seen, from 256 to twice the picture's longer side, at most 2048. (0)
         soft_shadow_maps: points of a light that has a shadow_radius, each with maps of half that side: 4 to 64 (16)
