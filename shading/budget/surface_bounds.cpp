@@ -333,7 +333,7 @@ double sky_share_codes(const CodeCosts& costs, const ShadingPlan& plan, const Ma
     }
     // Ten roundings each of H(n) and T(n), whose terms are at most 4 times the sum of L_d. The share is never below kGridBounce, so the
     // error is one of the light.
-    const double share_error = (1.0 - double{kGridBounce}) * (1e-4 + kGridSlope * normal_error);
+    const double share_error = (1.0 - double{kGridBounce}) * (5e-5 + kGridSlope * normal_error);
     return costs.relative(share_error / double{kGridBounce});
 }
 

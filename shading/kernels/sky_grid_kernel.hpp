@@ -95,12 +95,13 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
 
 /// Share of the light of the surroundings that reaches a surface, in [kGridBounce, 1]. `normal`: that light is received by.
 HALFLIT_INLINE F seen_in_grid(const shading::SkyGridPlan& grid, const GridLight& hidden, V3 normal) {
+    constexpr float kThreshold = shading::kGridThreshold;
     GridLight all = no_grid_light();
     all.add(
         F(1.0f), [&](int term) __attribute__((always_inline)) { return F(grid.total[term]); });
     const F total = vmax(all.at(normal), F(grid.least_total));
-    const F share = vdiv(hidden.at(normal), total), above = share - F(shading::kGridThreshold);
-    return F(1.0f) - clamp(vmin(share, above + above), F(0.0f), F(1.0f)) * F(1.0f - shading::kGridBounce);
+    const F share = (vdiv(hidden.at(normal), total) - F(kThreshold)) * F(1.0f / (1.0f - kThreshold));
+    return F(1.0f) - clamp(share, F(0.0f), F(1.0f)) * F(1.0f - shading::kGridBounce);
 }
 
 }  // namespace HALFLIT_ISA_NAMESPACE

@@ -3,7 +3,7 @@
 //
 // The share of the light of the surroundings that a surface with the normal n loses is
 //
-//     s = H(n) / T(n), or 2 (s - kGridThreshold) if that is less, held in [0, 1];  H(n) = sum of L_d A(n.d) h_d,  T(n) = sum of L_d A(n.d)
+//     held in [0, 1]: (H(n) / T(n) - kGridThreshold) / (1 - kGridThreshold),     H(n) = sum of L_d A(n.d) h_d,  T(n) = sum of L_d A(n.d)
 //
 // where L_d is the light from the direction d, h_d the share of it that is hidden, and A the received cosine in its first three bands. H is
 // a polynomial of the second degree in n. Its nine terms are those of the eight points of the lattice around the surface, by linear weights
@@ -26,7 +26,7 @@ inline constexpr float kGridClearance = 0.35f;
 inline constexpr float kGridFade = 1.0f;
 /// Sum of the weights of the points below which hidden shares fade to 0.
 inline constexpr float kLeastGridWeight = 0.05f;
-/// Hidden share up to which none counts; from twice that on all does.
+/// Hidden share that does not count.
 inline constexpr float kGridThreshold = 0.04f;
 
 /// A(c) = constant + linear c + square c^2 [RH01].
@@ -39,7 +39,7 @@ inline constexpr double kGridLobeMean = kGridLobe.constant + kGridLobe.square / 
 
 /// Least T(n), in the sum of L_d; slope of the share.
 inline constexpr double kLeastGridTotal = kGridLobeMean / 2.0;
-inline constexpr double kGridSlope = 4.0 * (kGridLobe.linear + 2.0 * kGridLobe.square) / kLeastGridTotal;
+inline constexpr double kGridSlope = 2.0 * (kGridLobe.linear + 2.0 * kGridLobe.square) / (kLeastGridTotal * (1.0 - double{kGridThreshold}));
 /// Share of the hidden light that other surfaces return.
 inline constexpr float kGridBounce = 0.4f;
 

@@ -315,7 +315,7 @@ double seen_in_grid(Vec3d n, const Surroundings& around) {
         all += l;
     }
     const double share = hidden / std::max({total, kLeastGridTotal * all, 1e-30}), least = double{kGridThreshold};
-    return 1.0 - std::clamp(std::min(share, 2.0 * (share - least)), 0.0, 1.0) * (1.0 - double{kGridBounce});
+    return 1.0 - std::clamp((share - least) / (1.0 - least), 0.0, 1.0) * (1.0 - double{kGridBounce});
 }
 
 /// Shares of the light of the surroundings that a surface sees.

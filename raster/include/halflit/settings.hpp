@@ -77,7 +77,7 @@ struct Settings {
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
     float shadow_fade = 0.0f;
     /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024.
-    /// 1 (auto): by a grid of at most 64 voxels on a side, which costs little; 2/5 of the light that is lost comes back from other
+    /// 1 (auto): by a grid of at most 28 points on a side, which costs little; 2/5 of the light that is lost comes back from other
     /// surfaces. 0, or without shadows: they cast none.
     int sky_shadows = 0;
     /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1. There is
