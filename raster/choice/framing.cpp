@@ -277,8 +277,7 @@ Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view) {
 
 Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
     const FpEnvironment environment_of_host;
-    const FramedPart part = framed_part(scene);
-    return fitted(FramedPoints(scene, part, bounds), aspect, view);
+    return raster::frame_with_shadow(scene, framed_part(scene), bounds, aspect, view);
 }
 
 Camera raster::frame_with_shadow(const Scene& scene, const FramedPart& part, const Bounds& bounds, float aspect, const ViewSettings& view) {
@@ -291,7 +290,7 @@ std::vector<Camera> frame_each(const Scene& scene, const Bounds& bounds, float a
     const FramedPart part = framed_part(scene);
     const FramedPoints points(scene, part, bounds);
     std::vector<Camera> cameras;
-    for (const ViewSettings& view : views) cameras.push_back(fitted(points, aspect, view));
+    for (const ViewSettings& view : views) cameras.push_back(with_room_for_shadow(points, aspect, view, fitted(points, aspect, view)));
     return cameras;
 }
 

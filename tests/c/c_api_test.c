@@ -214,6 +214,8 @@ static void test_struct_sizes(void) {
     cube.settings.shadow_size = 0;                 // the default, which a shorter struct stands for
     cube.settings.tone_curve = HALFLIT_TONE_NONE;  // so too
     cube.settings.contact_shadow = 0;              // so too
+    cube.settings.alpha = HALFLIT_ALPHA_SPACE_LINEAR, cube.settings.shadow_softness_deg = 0;
+    cube.settings.edl = HALFLIT_EDL_OFF, cube.settings.edge_contrast = 0;
     older = cube.settings;
     expected = draw_cube(NULL, &cube);
     CHECK(expected != 0);
@@ -790,6 +792,8 @@ static void test_points_and_lines(void) {
     CHECK_OK(halflit_scene_get_counts(cube.scene, &counts));
     CHECK(counts.triangles == 0);
     cube.settings.point_size = 0;
+    CHECK(draw_cube(NULL, &cube) != 0);  // the size that closes a cloud
+    cube.settings.point_size = -1;
     CHECK(draw_cube(NULL, &cube) == 0);
     CHECK(strstr(halflit_last_error(), "point_size") != NULL);
     free_cube(&cube);

@@ -204,7 +204,7 @@ TEST_CASE("parts: a ghost is a layer that shows what lies inside, and the others
     CHECK(inside > 100);
     CHECK(foot > 20);
     // OBJ's surfaces have two sides, so each ray passes two layers: 255 (1 - (1 - 0.16)^2) = 75.07.
-    const Picture layer = with({"--only", "case", "--ghost", "case", "--background", "transparent"});
+    const Picture layer = with({"--only", "case", "--ghost", "case", "--background", "transparent", "--alpha", "linear"});
     std::set<int> alphas;
     for (std::size_t i = 3; i < layer.rgba8.size(); i += 4) alphas.insert(layer.rgba8[i]);
     CHECK(alphas == std::set<int>{0, 75});

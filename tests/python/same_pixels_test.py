@@ -95,7 +95,7 @@ class OfCode(unittest.TestCase):
         self.check(model, "--size", "99", "--shadows", "hard", "--background", "#8899aa", size=99, shadows="hard", background="#8899aa")
         self.check(model, "--size", "99", "--background", "transparent", size=99, background="transparent")
         self.check(model, "--size", "99", "--accuracy", "reference", size=99, accuracy="reference")
-        self.check(model, "--size", "99", "--region", "20,30,40,25", size=99, region=(20, 30, 40, 25))
+        self.check(model, "--size", "99", "--region", "5,20,60,70", size=99, region=(5, 20, 60, 70))
 
     def test_ways_to_compute(self):
         expected = program_hash("demo", "--size", "160x90")

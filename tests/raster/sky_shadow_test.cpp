@@ -231,7 +231,7 @@ EnvironmentImage uneven_sky() {
 
 }  // namespace
 
-TEST_CASE("sky shadows: the light of rays in 4,096 directions, within five codes on average, and two with 256 maps; by small lights more",
+TEST_CASE("sky shadows: the light of rays in 4,096 directions, within five codes on average, and two with 256 maps, and by small lights",
           "[raster][sky-shadows]") {
     for (const bool studio : {false, true}) {
         const EnvironmentImage sky = studio ? studio_image() : uneven_sky();

@@ -76,8 +76,8 @@ STRUCTS = {
         anisotropy; int32_t specular; int32_t normalize_specular; float normal_scale; int32_t shading_rate; int32_t
         environment_bands; int32_t shadows; int32_t shadow_size; int32_t soft_shadow_maps; float shadow_fade; int32_t sky_shadows;
         int32_t shadow_terminator_offset; float emission_scale; int32_t edges; int32_t hidden_edges; float edge_angle_deg; float
-        edge_width; float edge_color[3]; int32_t max_layers; float contact_shadow; int32_t edl; float edl_strength; int32_t
-        edge_contrast; int32_t reserved[1];
+        edge_width; float edge_color[3]; int32_t max_layers; float contact_shadow; int32_t alpha; float shadow_softness_deg;
+        int32_t edl; float edl_strength; int32_t edge_contrast; int32_t reserved[1];
 """,
     "halflit_picture_request": """
         size_t size; const halflit_camera* camera; const char* scene_camera; double studio_turn_rad; int32_t width, height;
@@ -173,6 +173,8 @@ CONSTANTS = {
     "HALFLIT_EDGES_FEATURE": 1,
     "HALFLIT_EDGES_SILHOUETTE": 2,
     "HALFLIT_EDGES_ALL": 3,
+    "HALFLIT_ALPHA_SPACE_LINEAR": 0,
+    "HALFLIT_ALPHA_SPACE_DISPLAY": 1,
     "HALFLIT_HIDDEN_EDGES_NONE": 0,
     "HALFLIT_HIDDEN_EDGES_DASHED": 1,
     "HALFLIT_EDL_OFF": 0,

@@ -93,7 +93,7 @@ class PictureOptions(ViewOptions, total=False):
         shadow_fade: soft_split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
             (0)
         sky_shadows: Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16
-            to 1024. 1 (auto): by a grid of at most 64 voxels on a side, which costs little; 2/5 of the light that is lost comes
+            to 1024. 1 (auto): by a grid of at most 28 points on a side, which costs little; 2/5 of the light that is lost comes
             back from other surfaces. 0, or without shadows: they cast none. (1)
         shadow_terminator_offset: look-ups on the smooth surface given by the vertex normals, for coarse meshes (False)
         emission_scale: factor on the light that all surfaces emit (not on colours of unlit materials) (1)

@@ -655,7 +655,7 @@ typedef struct halflit_settings {
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap (0)
     float shadow_fade;
     /// Number of directions in which ambient light and the environment cast shadows, by shadow maps of 256 texels: 16 to 1024. 1
-    /// (auto): by a grid of at most 64 voxels on a side, which costs little; 2/5 of the light that is lost comes back from other
+    /// (auto): by a grid of at most 28 points on a side, which costs little; 2/5 of the light that is lost comes back from other
     /// surfaces. 0, or without shadows: they cast none. (0)
     int32_t sky_shadows;
     /// look-ups on the smooth surface given by the vertex normals, for coarse meshes (0)
