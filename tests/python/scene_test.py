@@ -107,7 +107,7 @@ class Arrays(unittest.TestCase):
     def test_points_and_lines_without_a_material_have_their_own_colours(self):
         # As those of files: no side of them faces a light. What has normals is lit.
         colors = np.full((8, 3), (200, 100, 50), np.uint8)
-        options = {"point_size": 9, "line_width": 9, "tone_curve": "none", "samples": 1}
+        options = {"point_size": 9, "line_width": 9, "tone_curve": "none", "samples": 1, "edl": "off"}
         for topology, faces in (("points", np.arange(8)), ("lines", [[0, 7], [1, 6]])):
             given = {"vertices": CORNERS, "faces": faces, "topology": topology, "colors": colors}
             added, replaced, lit = halflit.Scene(), halflit.Scene(), halflit.Scene()
