@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@ constexpr int kSide = kCells + 2;      ///< with a border that nothing covers
 constexpr double kLeastDepth = 0.02;   ///< of a hollow, over the longest side of the box
 constexpr double kUncovered = -1e300;  ///< height where nothing is
 constexpr std::size_t kMostTriangles = 1 << 16;
+constexpr std::uint64_t kMostLooks = std::uint64_t{1} << 24;  ///< at cells, after which triangles count by their middle: .2 s
 
 /// Heights of what is seen from straight above.
 class HeightMap {
@@ -29,7 +31,8 @@ public:
         const auto [low_z, high_z] = std::minmax({p[0].z, p[1].z, p[2].z});
         const double twice_area = (p[1].x - p[0].x) * (p[2].z - p[0].z) - (p[2].x - p[0].x) * (p[1].z - p[0].z);
         bool any = false;
-        if (twice_area != 0.0)
+        if (twice_area != 0.0 && looks_ < kMostLooks) {
+            looks_ += static_cast<std::uint64_t>(cell(high_z) - cell(low_z) + 1) * static_cast<std::uint64_t>(cell(high_x) - cell(low_x) + 1);
             for (int z = cell(low_z); z <= cell(high_z); ++z)
                 for (int x = cell(low_x); x <= cell(high_x); ++x) {
                     const double at_x = x + 0.5, at_z = z + 0.5;
@@ -41,6 +44,7 @@ public:
                     any = true;
                     put(x, z, (w0 * p[0].y + w1 * p[1].y) + w2 * p[2].y);
                 }
+        }
         if (!any) put(cell((p[0].x + p[1].x + p[2].x) / 3.0), cell((p[0].z + p[1].z + p[2].z) / 3.0), (p[0].y + p[1].y + p[2].y) / 3.0);
     }
 
@@ -84,6 +88,7 @@ private:
     }
 
     double low_x_, low_z_, per_length_;
+    std::uint64_t looks_ = 0;
     std::vector<double> heights_ = std::vector<double>(static_cast<std::size_t>(kSide) * kSide, kUncovered);
 };
 

@@ -161,7 +161,9 @@ FramedView choose_view(const Scene& scene, const Bounds& bounds, float aspect, c
     constexpr float kBehind = 180.0f, kBelow = -40.0f;
     const raster::FramedPart part = raster::framed_part(scene);
     if (!is_usual(view)) return {view, frame_with_shadow(scene, part, bounds, aspect, view), ViewReason::given};
-    const auto [most, reason] = telling_view(scene, part, part.whole ? bounds : part.bounds, front_view(scene, view));
+    const ChosenView telling = telling_view(scene, part, part.whole ? bounds : part.bounds, front_view(scene, view));
+    const ViewSettings& most = telling.view;
+    const ViewReason reason = telling.reason;
     const auto turned = [&](float azimuth_deg, float elevation_deg) {
         ViewSettings other = most;
         other.azimuth_deg += azimuth_deg;

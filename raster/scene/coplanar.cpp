@@ -203,8 +203,8 @@ private:
             WorldBox box{};
             for (std::size_t k = 0; k < 3; ++k) box.low[k] = placed.low[k], box.high[k] = placed.high[k];
             if (!box.meets(reach)) continue;
-            const auto [begin, end] = triangles_of_cluster(mesh, c);
-            const std::size_t count = end - begin;
+            const auto range = triangles_of_cluster(mesh, c);
+            const std::size_t begin = range.begin, count = range.end - begin;
             planes_.find(mesh, begin, count, instance.world_from_object, box, reach);
             for (std::size_t i = 0; i < count; ++i)
                 planes_.each_cell(i, [&](std::uint64_t key) {

@@ -20,7 +20,7 @@ constexpr double kBeside = 0.5;         ///< of a large ground, around what stan
 constexpr double kLeastFoot = 0.5;      ///< the same, spacings
 
 /// Pieces after which large triangles are cut no more: a second or so.
-constexpr std::uint64_t kMostPieces = std::uint64_t{1} << 26, kBetweenLooks = std::uint64_t{1} << 18, kUnitsAPiece = 16;
+constexpr std::uint64_t kMostPieces = std::uint64_t{1} << 24, kBetweenLooks = std::uint64_t{1} << 18, kUnitsAPiece = 100;
 
 /// Areas across the axes by the six directions that they face; of double-sided triangles, all of them once more.
 struct Areas {

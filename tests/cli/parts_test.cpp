@@ -282,6 +282,8 @@ TEST_CASE("parts: frames of an animation are the pictures of their times, with t
                         "--no-scene-lights",
                         "--env",
                         "sky",
+                        "--contact-shadow",  // a film takes it from what leaves the ground
+                        "0",
                         "--highlight",
                         "1",
                         "--ghost",

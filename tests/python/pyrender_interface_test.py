@@ -272,7 +272,7 @@ class Flags(unittest.TestCase):
         cloud = pyrender.Mesh.from_points(points, colors=[[0.2, 0.4, 0.6], [1.0, 0.0, 0.0]])
         renderer = pyrender.OffscreenRenderer(SIZE, SIZE, point_size=4.0)
         color, depth = renderer.render(seen((cloud, moved()), bg_color=[0.0, 0.0, 0.0]), RenderFlags.DISABLE_ANTI_ALIASING)
-        self.assertEqual((depth > 0).sum(), 32)  # two squares of 4 x 4
+        self.assertEqual((depth > 0).sum(), 24)  # two circles in squares of 4 x 4
         self.assertEqual({tuple(code) for code in color.reshape(-1, 3)}, {(0, 0, 0), (51, 102, 153), (255, 0, 0)})
         ends = pyrender.Primitive([[-0.5, 0, 0], [0.5, 0, 0], [0.5, 0.5, 0]], mode=GLTF.LINE_STRIP, color_0=[0.0, 1.0, 0.0])
         color, depth = draw(seen((pyrender.Mesh([ends]), moved()), bg_color=[0.0, 0.0, 0.0]))

@@ -29,12 +29,14 @@ NUMBERS = {
     "soft_shadow_maps": [4, 16, 64, 3, 65], "shadow_fade": [0, 0.5, 1e9, -1, 1e-7], "sky_shadows": [0, 1, "auto", 16, 64, 2, 1025],
     "edge_angle_deg": [0, 30, 180, -1, 181], "edge_width": [0.25, 3, 64, 0.2, 65], "max_layers": [0, "none", 1, 1 << 20, -1, (1 << 20) + 1],
     "contact_shadow": [0, 0.5, 1, -0.1, 1.1], "edl_strength": [0, 0.5, 16, -1, 17],
+    "shadow_softness_deg": [0, 3, 10, -1, 11],
 }  # fmt: skip
 NAMED = {
     "tone_curve": ["none", "reinhard", "aces", "neutral", "filmic", ""], "accuracy": ["reference", "exact", "fast"],
     "texture_detail": ["full", "bilinear", "nearest", "x"], "specular": ["none", "phong", "blinn", "ggx", "x"],
     "shading_rate": ["flat", "gouraud", "pixel", "x"], "shadows": ["off", "hard", "soft_split", "soft-split", "x"],
     "edges": ["none", "feature", "silhouette", "all", "x"], "hidden_edges": ["none", "dashed", "x"], "edl": ["off", "auto", "on", "x"],
+    "alpha": ["linear", "display", "x"],
 }  # fmt: skip
 #: Those that were answered differently, and others of a view.
 OTHERS = [

@@ -202,6 +202,7 @@ class _Frame:
     def lit(self, world: World, flags: int) -> Array:
         background, codes, tables = _background(tuple(self.background(flags)))
         options: Dict[str, Any] = {"samples": self.samples(flags), "background": background, "tone_curve": "none"}
+        options.update(alpha="linear", edl="off")
         options["specular"] = "ggx" if world.style.kind == "lit" else "none"
         shadows = any(flags & _shadow_flag(node.light) for node in self.lights if node.light is not None)
         options.update(shadows="hard" if shadows else "off", shadow_size=SHADOW_TEX_SZ if shadows else 0)
