@@ -1,4 +1,5 @@
-// A studio in daylight: large bright soft boxes in a grey room, and a light floor. Directions in it are those of a viewer who looks along -z.
+// A studio in daylight: large bright soft boxes in a grey room, and a light floor. Directions in it are those of a viewer who looks along
+// -z.
 #include "halflit/scene.hpp"
 
 #include "sh/arc.hpp"
@@ -50,8 +51,8 @@ private:
     double per_width_, per_height_;  ///< 1 / tan of half the angle
 };
 
-/// Walls, ceiling and floor. The right side is darker, so that faces of a box differ; a strip below the horizon and the side of the viewer are,
-/// too, so that metals show their curvature.
+/// Walls, ceiling and floor. The right side is darker, so that faces of a box differ; a strip below the horizon and the side of the viewer
+/// are, too, so that metals show their curvature.
 Vec3d room(Vec3d d) {
     constexpr double kDarkerRight = 0.35, kDarkerBehind = 0.27, kBlend = 0.12, kStripHeight = -0.226, kStripReach = 0.236;
     const Vec3d horizon{0.40, 0.397, 0.39}, ceiling{0.154, 0.162, 0.174}, near_floor{0.735, 0.72, 0.695}, floor{0.435, 0.425, 0.41};
@@ -69,10 +70,10 @@ Vec3d room(Vec3d d) {
 
 EnvironmentImage studio_image() {
     const FpEnvironment environment_of_host;
-    const std::array<SoftBox, 4> boxes{SoftBox{-45, 51, 54, 44, {2.42, 2.38, 2.28}},   // the main one, to the left above the viewer
-                                       SoftBox{78, 20, 36, 70, {1.36, 1.40, 1.47}},    // a tall one on the right side
-                                       SoftBox{150, 38, 76, 34, {0.86, 0.88, 0.92}},   // behind the model: edges
-                                       SoftBox{0, 86, 70, 70, {0.66, 0.66, 0.66}}};    // overhead
+    const std::array<SoftBox, 4> boxes{SoftBox{-45, 51, 54, 44, {2.42, 2.38, 2.28}},  // the main one, to the left above the viewer
+                                       SoftBox{78, 20, 36, 70, {1.36, 1.40, 1.47}},   // a tall one on the right side
+                                       SoftBox{150, 38, 76, 34, {0.86, 0.88, 0.92}},  // behind the model: edges
+                                       SoftBox{0, 86, 70, 70, {0.66, 0.66, 0.66}}};   // overhead
     EnvironmentImage image{2 * kStudioRows, kStudioRows, {}, true};
     image.rgb.reserve(static_cast<std::size_t>(6) * kStudioRows * kStudioRows);
     for (int y = 0; y < kStudioRows; ++y)

@@ -32,7 +32,8 @@ public:
         const double twice_area = (p[1].x - p[0].x) * (p[2].z - p[0].z) - (p[2].x - p[0].x) * (p[1].z - p[0].z);
         bool any = false;
         if (twice_area != 0.0 && looks_ < kMostLooks) {
-            looks_ += static_cast<std::uint64_t>(cell(high_z) - cell(low_z) + 1) * static_cast<std::uint64_t>(cell(high_x) - cell(low_x) + 1);
+            looks_ +=
+                static_cast<std::uint64_t>(cell(high_z) - cell(low_z) + 1) * static_cast<std::uint64_t>(cell(high_x) - cell(low_x) + 1);
             for (int z = cell(low_z); z <= cell(high_z); ++z)
                 for (int x = cell(low_x); x <= cell(high_x); ++x) {
                     const double at_x = x + 0.5, at_z = z + 0.5;

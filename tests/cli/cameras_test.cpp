@@ -280,13 +280,15 @@ TEST_CASE("camera of a report: read back it draws the same pixels", "[cli][camer
     }
     CHECK(pictures == 20);
     // Cameras that the program chooses.
-    for (const Strings& flags : {Strings{}, Strings{"--view", "iso", "--ortho", "--shadows", "hard"}, Strings{"--camera-position", "3,2,4", "--fov", "30"}}) {
+    for (const Strings& flags :
+         {Strings{}, Strings{"--view", "iso", "--ortho", "--shadows", "hard"}, Strings{"--camera-position", "3,2,4", "--fov", "30"}}) {
         Strings all = flags;
         all.insert(all.end(), {"--size", "72x52"});
         const Json first = drawn("demo", folder.file("a.png"), all);
         write_contents(folder.file("told.json"), first["camera"].dump());
         Strings again{"--camera-file", folder.file("told.json")};
-        if (!flags.empty() && flags.back() == "hard") again.insert(again.end(), flags.end() - 2, flags.end());  // without --ortho there are shadows by default
+        if (!flags.empty() && flags.back() == "hard")
+            again.insert(again.end(), flags.end() - 2, flags.end());  // without --ortho there are shadows by default
         CHECK(drawn("demo", folder.file("b.png"), again)["pixel_hash"] == first["pixel_hash"]);
     }
 }

@@ -77,7 +77,10 @@ TEST_CASE("alpha: codes have it by choice, floats and partly transparent backgro
         Image image;
         image.rgba8.resize(4 * kSide * kSide), image.rgba_linear.resize(4 * kSide * kSide);
         REQUIRE(render(scene, setup.camera, setup.settings,
-                       {.width = kSide, .height = kSide, .pixels = image.rgba8.data(), .linear = image.rgba_linear.data(),
+                       {.width = kSide,
+                        .height = kSide,
+                        .pixels = image.rgba8.data(),
+                        .linear = image.rgba_linear.data(),
                         .premultiplied = premultiplied}));
         return image;
     };

@@ -1,8 +1,8 @@
 // Framing that a large ground, or a few vertices far away, do not spoil; and that keeps to all of the scene otherwise.
+#include "raster/scene/framed_part.hpp"
 #include "halflit/camera.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/shapes.hpp"
-#include "raster/scene/framed_part.hpp"
 
 #include "tests/support/catch.hpp"
 

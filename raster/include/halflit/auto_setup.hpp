@@ -39,11 +39,11 @@ struct AutoOptions {
 
 /// The choice of auto_setup(); render() takes all of it.
 struct AutoSetup {
-    Camera camera;        ///< the view to draw
-    Lighting light;       ///< the scene's own, with what it lacks
-    Settings settings;    ///< usual_settings(), the exposure, and a background that suits the surfaces' colours
-    bool framed = false;  ///< the camera is a view of the whole scene
-    ViewSettings view{};  ///< of a view of the whole scene: AutoOptions::view, or another side's
+    Camera camera;                               ///< the view to draw
+    Lighting light;                              ///< the scene's own, with what it lacks
+    Settings settings;                           ///< usual_settings(), the exposure, and a background that suits the surfaces' colours
+    bool framed = false;                         ///< the camera is a view of the whole scene
+    ViewSettings view{};                         ///< of a view of the whole scene: AutoOptions::view, or another side's
     ViewReason view_reason = ViewReason::given;  ///< for that view
 };
 
@@ -77,8 +77,8 @@ struct PictureChoice : AutoSetup {
 ///     else alone, at auto_exposure;
 ///   - an environment: an exposure by which its mean light makes a white surface 0.5, or 1 if its image is calibrated.
 /// The background is dark grey (#2c3036), or light grey (codes 180, 186, 194) where surfaces are dark in the mean: their silhouette stands
-/// out from it. By parallel rays that are asked for (ViewSettings::orthographic) there are no shadows: their borders look like edges. Nothing
-/// depends on pixels.
+/// out from it. By parallel rays that are asked for (ViewSettings::orthographic) there are no shadows: their borders look like edges.
+/// Nothing depends on pixels.
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options = {});
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options);

@@ -53,7 +53,8 @@ struct Settings {
     Region region{};                      ///< part of the picture to draw
     int samples = 1;                      ///< per pixel: 1, 4, 8 or 16
     Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
-    AlphaSpace alpha = AlphaSpace::linear;  ///< of codes; floats have the share of light, and so has a background that is partly transparent
+    AlphaSpace alpha =
+        AlphaSpace::linear;               ///< of codes; floats have the share of light, and so has a background that is partly transparent
     bool background_environment = false;  ///< true: the scene's environment, if it kept its image
     float exposure = 1.0f;                ///< factor on all light, above 0
     /// from light to codes, for each sample, after exposure; pictures of floats and the background colour do without
@@ -71,8 +72,9 @@ struct Settings {
     std::size_t shadow_memory_limit = std::size_t{256} << 20;  ///< bytes; the largest shadow maps are halved until all fit
     /// points of a light that has a shadow_radius, each with maps of half that side: 4 to 64
     int soft_shadow_maps = 16;
-    /// Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of its shadows show it, by a wider
-    /// filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide. Degrees, 0 to 10; 0: all edges are sharp.
+    /// Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of its shadows show it, by a
+    /// wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide. Degrees, 0 to 10; 0: all edges are
+    /// sharp.
     float shadow_softness_deg = 0.0f;
     /// soft-split: distance to the blocker from which on wrapped light is 0, world units; 0: from object size and wrap
     float shadow_fade = 0.0f;
