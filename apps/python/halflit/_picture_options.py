@@ -108,8 +108,7 @@ class PictureOptions(ViewOptions, total=False):
         contact_shadow: Opacity of the soft shadow below a model that stands, over the background, where all light from above is
             hidden: 0 to 1. There is none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below.
             0: none. (0.85)
-        alpha: of codes; floats have the share of light, and so has a background that is partly transparent: "linear", "display"
-            (display)
+        alpha: of codes on transparent backgrounds; floats have the share of light: "linear", "display" (display)
         shadow_softness_deg: Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of
             its shadows show it, by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide.
             Degrees, 0 to 10; 0: all edges are sharp. (3.0)

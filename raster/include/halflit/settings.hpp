@@ -50,13 +50,12 @@ inline constexpr int kSkyShadowsAuto = 1;
 
 /// Everything besides scene, camera and size that decides a pixel.
 struct Settings {
-    Region region{};                      ///< part of the picture to draw
-    int samples = 1;                      ///< per pixel: 1, 4, 8 or 16
-    Vec4f background_linear{0, 0, 0, 0};  ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
-    AlphaSpace alpha =
-        AlphaSpace::linear;               ///< of codes; floats have the share of light, and so has a background that is partly transparent
-    bool background_environment = false;  ///< true: the scene's environment, if it kept its image
-    float exposure = 1.0f;                ///< factor on all light, above 0
+    Region region{};                        ///< part of the picture to draw
+    int samples = 1;                        ///< per pixel: 1, 4, 8 or 16
+    Vec4f background_linear{0, 0, 0, 0};    ///< linear colour, not premultiplied; w = 0 is transparent, without a colour
+    AlphaSpace alpha = AlphaSpace::linear;  ///< of codes on transparent backgrounds; floats have the share of light
+    bool background_environment = false;    ///< true: the scene's environment, if it kept its image
+    float exposure = 1.0f;                  ///< factor on all light, above 0
     /// from light to codes, for each sample, after exposure; pictures of floats and the background colour do without
     ToneCurve tone_curve = kDefaultToneCurve;
     ShadingSettings shading{};  ///< light and textures

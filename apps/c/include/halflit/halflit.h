@@ -680,7 +680,7 @@ typedef struct halflit_settings {
     /// Opacity of the soft shadow below a model that stands, over the background, where all light from above is hidden: 0 to 1.
     /// There is none in a scene with a shadow catcher, without shadows, by parallel rays, and seen from below. 0: none. (0)
     float contact_shadow;
-    /// HALFLIT_ALPHA_SPACE: of codes; floats have the share of light, and so has a background that is partly transparent (linear)
+    /// HALFLIT_ALPHA_SPACE: of codes on transparent backgrounds; floats have the share of light (linear)
     int32_t alpha;
     /// Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of its shadows show it,
     /// by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide. Degrees, 0 to 10; 0: all
