@@ -101,7 +101,8 @@ inline constexpr NamedView kNamedViews[] = {{"front", 0, 0}, {"back", 180, 0},  
 /// 45 degrees.
 [[nodiscard]] HALFLIT_API Camera frame_bounds(const Bounds& bounds, float aspect, const ViewSettings& view);
 
-/// The same, but fitted to the vertices: tight and centred for any shape.
+/// The same, but fitted to the vertices: tight and centred for any shape. Seen from above in perspective, with the usual margins, it has
+/// room below for the contact shadow.
 [[nodiscard]] HALFLIT_API Camera frame_scene(const Scene& scene, float aspect, const ViewSettings& view = {});
 /// The same. bounds: scene_bounds(scene).
 [[nodiscard]] HALFLIT_API Camera frame_scene(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view);
@@ -130,9 +131,9 @@ enum class ViewReason : std::uint8_t {
 
 /// A view of a whole scene, and the camera that frame_scene() makes of it, with room for the shadow below.
 struct FramedView {
-    ViewSettings view;  ///< its direction, and how it is fitted
-    Camera camera;      ///< that shows the scene whole
-    ViewReason reason = ViewReason::given;
+    ViewSettings view;                      ///< its direction, and how it is fitted
+    Camera camera;                          ///< that shows the scene whole
+    ViewReason reason = ViewReason::given;  ///< for the view
 };
 
 /// The view of a scene without a camera: `view`, or with the usual angles, one that suits the scene's shape, counted from the side that the
