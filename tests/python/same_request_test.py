@@ -17,7 +17,7 @@ SIZE = (48, 36)
 #: Keywords whose flags have other names.
 FLAG = {"texture_detail": "texture-filter", "tone_curve": "tonemap", "normalize_specular": "specular-normalize",
         "environment_bands": "sh-order", "shading_rate": "shading", "shadow_terminator_offset": "shadow-terminator",
-        "edge_angle_deg": "edge-angle", "orthographic": "ortho"}  # fmt: skip
+        "edge_angle_deg": "edge-angle", "shadow_softness_deg": "shadow-softness", "orthographic": "ortho"}  # fmt: skip
 #: Settings without a flag, or with another unit.
 NO_FLAG = ("environment_tolerance", "emission_scale", "shadow_memory_limit")
 #: In range, at the ends, and out of range.
