@@ -128,9 +128,12 @@ float complete(Lighting& light, const Bounds& bounds, const Camera& camera, cons
     }
     // Lights of a file add to the studio, so that a file is not darker with them than without; strong ones are as bright as white in it.
     // Suns that light what the viewer sees take the key light's place, so that their shadows are seen.
-    const bool adds = unknown_unit && dark && options.studio == StudioUse::for_dark && !options.ambient_linear;
-    const float light_level = unknown_unit ? 1.0f / auto_exposure(light, bounds) : 1.0f;
-    const float level = unknown_unit && in_studio ? light.environment->studio_level : adds ? std::max(light_level, 1.0f) : light_level;
+    const bool can_add = unknown_unit && options.studio == StudioUse::for_dark && !options.ambient_linear, adds = can_add && dark;
+    float level = unknown_unit ? 1.0f / auto_exposure(light, bounds) : 1.0f;
+    if (adds)
+        level = std::max(level, 1.0f);
+    else if (can_add && in_studio)  // the light was completed before, and has the key light
+        level = light.environment->studio_level;
     if (adds) {
         const float key = 1.0f - kMostKeyReplaced * sunlit_share(light, camera, level);
         add_studio(light, camera, options.studio_turn_rad, level);

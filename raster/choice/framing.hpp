@@ -6,7 +6,7 @@
 
 namespace halflit::raster {
 
-/// frame_scene() of a scene whose part is known, with room for the contact shadow as in choose_view(). bounds: scene_bounds(scene).
+/// frame_scene() of a scene whose part is known. bounds: scene_bounds(scene).
 [[nodiscard]] Camera frame_with_shadow(const Scene& scene, const FramedPart& part, const Bounds& bounds, float aspect,
                                        const ViewSettings& view);
 

@@ -93,7 +93,8 @@ struct Cell {
     Vec4f background_linear;
 };
 
-Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureSize size) {
+/// tells: warnings are printed.
+Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureSize size, bool tells) {
     try {
         auto job = make_render_job(options, size);
         if (!job) return tl::unexpected(job.error());
@@ -102,7 +103,8 @@ Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureS
             Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->timed_execution());
         if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
         for (const auto& warnings : {job->warnings, rendered->warnings})
-            for (const std::string& warning : warnings) print_warning(name + ": " + warning);
+            for (const std::string& warning : warnings)
+                if (tells) print_warning(name + ": " + warning);
         return Cell{std::move(image), job->settings.background_linear};
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, name + ": out of memory");
@@ -150,7 +152,7 @@ Result<int> run_sheet(const SheetOptions& options) {
         SheetOptions one = options;
         one.scene = options.scenes[i];
         if (background) one.background_linear = background;
-        if (const auto cell = draw(one, names[i], size)) {
+        if (const auto cell = draw(one, names[i], size, !background)) {
             page.add_picture(i, cell->image, false);
             backgrounds[i] = cell->background_linear;
         } else {
