@@ -159,7 +159,7 @@ TEST_CASE("view: there is room for the shadow below what stands", "[raster][view
         };
         return Vec2f{row(&Vec4f::x) / row(&Vec4f::w), row(&Vec4f::y) / row(&Vec4f::w)};
     };
-    const Camera tight = frame_scene(scene, 1.0f), roomy = choose_view(scene, bounds, 1.0f, {}).camera;
+    const Camera tight = frame_bounds(bounds, 1.0f, {}), roomy = choose_view(scene, bounds, 1.0f, {}).camera;
     float largest = 0, lowest = 0, low_before = 0, width_before = 0, width = 0;
     for (const float x : {-1.0f, 1.0f})
         for (const float y : {-1.0f, 1.0f})
