@@ -1,10 +1,7 @@
 #include "shading/moment_levels.hpp"
 
+#include "shading/kernels/shade_kernels.hpp"
 #include "shading/texture_texels.hpp"
-
-#include <cmath>
-
-// Loops over whole rows, each over lists of one number, so that the compiler vectorises them.
 
 namespace halflit {
 namespace {
@@ -13,44 +10,13 @@ std::uint16_t rounded(double value) {
     return static_cast<std::uint16_t>(static_cast<std::int32_t>(value < 65535.0 ? value + 0.5 : 65535.0));
 }
 
-void read_normals(const std::uint16_t* texels, int width, double* x, double* y, double* z) {
-    constexpr double kUnit = 2.0 / 65535.0;
-    for (int i = 0; i < width; ++i) {
-        x[i] = texels[4 * i] * kUnit - 1.0;
-        y[i] = texels[4 * i + 1] * kUnit - 1.0;
-        z[i] = texels[4 * i + 2] * kUnit - 1.0;
-    }
-    for (int i = 0; i < width; ++i) {
-        const double length = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-        const bool has_length = length > 0.0;
-        x[i] = has_length ? x[i] / length : 0.0;
-        y[i] = has_length ? y[i] / length : 0.0;
-        z[i] = has_length ? z[i] / length : 1.0;
-    }
-}
-
-/// [Tok05]: 1 / s grows by (1 - l) / l, l being the mean's length, and alpha^2 is 2 / s.
-void write_lost(const double* x, const double* y, const double* z, int width, std::uint16_t* out) {
-    for (int i = 0; i < width; ++i) {
-        const double l = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-        const double lost = 65535.0 * std::sqrt(2.0 * (1.0 - l) / l);
-        out[4 * i + 3] = rounded(l < 1.0 ? l > 0.0 ? lost : 65535.0 : 0.0);
-    }
-}
-
-/// Means of 2 x 2 numbers; the products are exact.
-void halve(const double* upper, const double* lower, int width, double* to) {
-    for (int i = 0; i < width; ++i)
-        to[i] = ((0.25 * upper[2 * i] + 0.25 * upper[2 * i + 1]) + 0.25 * lower[2 * i]) + 0.25 * lower[2 * i + 1];
-}
-
 }  // namespace
 
 void MomentLevels::read_level_0(const std::uint16_t* texels, int width, Row& out) const {
     for (int k = 0; k < numbers(); ++k) out.mean[k].resize(static_cast<std::size_t>(width));
     auto& mean = out.mean;
     if (rule_ == MipRule::normal) {
-        read_normals(texels, width, mean[0].data(), mean[1].data(), mean[2].data());
+        kernels_.unit_normals(texels, width, mean[0].data(), mean[1].data(), mean[2].data());
         return;
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(width); ++i, texels += 4) {
@@ -63,7 +29,7 @@ void MomentLevels::read_level_0(const std::uint16_t* texels, int width, Row& out
 void MomentLevels::write(const Row& row, int width, std::uint16_t* out) const {
     const auto& mean = row.mean;
     if (rule_ == MipRule::normal) {
-        write_lost(mean[0].data(), mean[1].data(), mean[2].data(), width, out);
+        kernels_.lost_lengths(mean[0].data(), mean[1].data(), mean[2].data(), width, out + 3);
         return;
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(width); ++i, out += 4) {
@@ -87,7 +53,7 @@ void MomentLevels::reduce(const std::uint16_t* const (&from)[3], const TextureLe
         made.mean[k].resize(static_cast<std::size_t>(small.width));
         double* const mean = made.mean[k].data();
         if (rows.count == 2 && large.width % 2 == 0) {
-            halve(above[0]->mean[k].data(), above[1]->mean[k].data(), small.width, mean);
+            kernels_.halve_means(above[0]->mean[k].data(), above[1]->mean[k].data(), small.width, mean);
             continue;
         }
         for (int x = 0; x < small.width; ++x) {

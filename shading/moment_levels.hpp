@@ -9,10 +9,13 @@
 #include <vector>
 
 namespace halflit {
+namespace shading {
+struct ShadeKernels;
+}
 
 class MomentLevels {
 public:
-    MomentLevels(MipRule rule, std::size_t levels) : rule_(rule), rows_(levels) {}
+    MomentLevels(MipRule rule, std::size_t levels, const shading::ShadeKernels& kernels) : rule_(rule), kernels_(kernels), rows_(levels) {}
 
     /// Computes row y of level `to` from the rows of the level above it: all of `out` by MipRule::alpha, its alpha alone by
     /// MipRule::normal. from: the rows that the row's box covers, read if they are level 0's. Rows of a level must come in order.
@@ -36,6 +39,7 @@ private:
     void write(const Row& row, int width, std::uint16_t* out) const;
 
     MipRule rule_;
+    const shading::ShadeKernels& kernels_;
     std::vector<Rows> rows_;  ///< of each level, the last ones; of level 0, those that are read at a time
 };
 

@@ -1,6 +1,7 @@
 // Making of textures: texels as they come, and the mip levels.
 #include "sh/config.hpp"
 #include "sh/fp_environment.hpp"
+#include "shading/kernels/shade_kernels.hpp"
 #include "shading/model/srgb.hpp"
 #include "shading/moment_levels.hpp"
 #include "shading/out_of_memory.hpp"
@@ -21,16 +22,6 @@ constexpr std::array<std::uint16_t, 256> make_decode_table() {
     return table;
 }
 constexpr std::array<std::uint16_t, 256> kLinear16FromSrgb8 = make_decode_table();
-
-/// A row of a level where both sides of the larger level are even: the mean of 2 x 2 texels. Written for the compiler to work on whole
-/// texels.
-void halve_row(const std::uint16_t* upper, const std::uint16_t* lower, std::uint16_t* to, int width) {
-    for (int x = 0; x < width; ++x, upper += 8, lower += 8, to += 4)
-        for (int c = 0; c < 4; ++c) {
-            const std::uint32_t sum = std::uint32_t{upper[c]} + upper[c + 4] + lower[c] + lower[c + 4];
-            to[c] = static_cast<std::uint16_t>((sum + 2) >> 2);
-        }
-}
 
 std::vector<TextureLevel> level_layout(int width, int height) {
     std::vector<TextureLevel> levels{{width, height, 0}};
@@ -68,6 +59,7 @@ Result<TextureBuilder> TextureBuilder::make(int width, int height, MipRule rule,
     if (auto sides = check_sides(width, height); !sides) return tl::unexpected(sides.error());
     try {
         TextureBuilder builder;
+        builder.kernels_ = &shading::usual_kernels();
         builder.levels_ = level_layout(width, height);
         const auto skipped = static_cast<std::size_t>(std::clamp(skip_levels, 0, static_cast<int>(builder.levels_.size()) - 1));
         for (std::size_t level = 0; level < skipped; ++level)
@@ -83,7 +75,7 @@ Result<TextureBuilder> TextureBuilder::make(int width, int height, MipRule rule,
         texture.data_ = {texture.texels_->memory.get(), values};
         builder.rows_.assign(builder.levels_.size(), 0);
         texture.rule_ = rule;
-        if (rule != MipRule::equal) builder.moments_ = std::make_unique<MomentLevels>(rule, builder.levels_.size());
+        if (rule != MipRule::equal) builder.moments_ = std::make_unique<MomentLevels>(rule, builder.levels_.size(), *builder.kernels_);
         return builder;
     } catch (const std::bad_alloc&) {
         return fail_out_of_memory(
@@ -146,7 +138,7 @@ void TextureBuilder::reduce(std::size_t level) {
         std::uint16_t* const to = row(level + 1, y);
         if (texture_.rule_ != MipRule::alpha) {
             if (large.width % 2 == 0 && large.height % 2 == 0)
-                halve_row(from[0], from[1], to, small.width);
+                kernels_->halve_texels(from[0], from[1], small.width, to);
             else
                 reduce_row(from, large, to, small, y);
         }

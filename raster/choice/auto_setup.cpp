@@ -1,8 +1,11 @@
 #include "halflit/auto_setup.hpp"
 
+#include "halflit/prepared_scene.hpp"
 #include "raster/choice/completed_light.hpp"
+#include "raster/choice/framing.hpp"
 #include "raster/choice/suited_background.hpp"
 #include "raster/detail/guarded.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/fp_environment.hpp"
 #include "shading/environment.hpp"
@@ -205,14 +208,18 @@ const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
     return is_near && shows_surface(scene, first, 1.0f) ? &first : nullptr;
 }
 
-AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
-    const FpEnvironment environment_of_host;
+namespace {
+
+/// prepared: the scene as it was prepared, which keeps what is framed; null: it is not.
+AutoSetup setup_of(const Scene& scene, const raster::PreparedData* prepared, const Bounds& bounds, int width, int height,
+                   const AutoOptions& options) {
     AutoSetup setup;
     const Camera* chosen = options.camera ? &*options.camera : options.frame ? nullptr : choose_camera(scene, bounds);
     setup.framed = chosen == nullptr;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    const FramedView seen =
-        chosen != nullptr ? FramedView{front_view(scene, options.view), *chosen} : choose_view(scene, bounds, aspect, options.view);
+    const FramedView seen = chosen != nullptr     ? FramedView{front_view(scene, options.view), *chosen}
+                            : prepared != nullptr ? raster::choose_view(scene, prepared->framed_part(), bounds, aspect, options.view)
+                                                  : choose_view(scene, bounds, aspect, options.view);
     setup.view = seen.view, setup.camera = seen.camera, setup.view_reason = seen.reason;
     setup.settings = usual_settings();
     if (options.view.orthographic && setup.camera.orthographic) setup.settings.shadows = ShadowMode::off;
@@ -226,9 +233,9 @@ AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int he
     return setup;
 }
 
-namespace {
-
-Result<PictureChoice> chosen_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request) {
+Result<PictureChoice> chosen_picture(const Scene& scene, const raster::PreparedData* prepared, const Bounds& bounds,
+                                     const PictureRequest& request) {
+    const FpEnvironment environment_of_host;
     const Camera* chosen = request.camera ? &*request.camera : request.frame ? nullptr : choose_camera(scene, bounds);
     if (request.scene_camera && !request.camera) {
         const auto found = find_camera(scene.cameras, *request.scene_camera);
@@ -243,30 +250,35 @@ Result<PictureChoice> chosen_picture(const Scene& scene, const Bounds& bounds, c
     AutoOptions options = request;
     options.frame = chosen == nullptr;
     if (chosen != nullptr) options.camera = *chosen;
-    PictureChoice choice{auto_setup(scene, bounds, size.width, size.height, options), size, -1};
+    PictureChoice choice{setup_of(scene, prepared, bounds, size.width, size.height, options), size, -1};
     if (chosen != nullptr && !request.camera) choice.scene_camera = static_cast<int>(chosen - scene.cameras.data());
     return choice;
 }
 
 }  // namespace
 
-Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request) {
+Result<PictureChoice> choose_picture(const PreparedScene& scene, const Bounds& bounds, const PictureRequest& request) {
     return raster::guarded("choosing a picture", {}, [&] {
-        const WorkLimit work(scene.frame_work);
-        return chosen_picture(scene, bounds, request);
+        const WorkLimit work(scene.scene().frame_work);
+        return chosen_picture(scene.scene(), &scene.data(), bounds, request);
     });
 }
 
 Result<PictureChoice> choose_picture(const Scene& scene, const PictureRequest& request) {
     return raster::guarded("choosing a picture", {}, [&] {
         const WorkLimit work(scene.frame_work);
-        return chosen_picture(scene, scene_bounds(scene), request);
+        return chosen_picture(scene, nullptr, scene_bounds(scene), request);
     });
 }
 
 AutoSetup auto_setup(const Scene& scene, int width, int height, const AutoOptions& options) {
     const FpEnvironment environment_of_host;
     return auto_setup(scene, scene_bounds(scene), width, height, options);
+}
+
+AutoSetup auto_setup(const Scene& scene, const Bounds& bounds, int width, int height, const AutoOptions& options) {
+    const FpEnvironment environment_of_host;
+    return setup_of(scene, nullptr, bounds, width, height, options);
 }
 
 }  // namespace halflit

@@ -50,6 +50,19 @@ double largest_scale(const Mat4& world_from_object) {
     return std::sqrt(most);
 }
 
+/// True if nothing in a placed box can change the fit. center: what the fit's points are relative to.
+template <class Fit>
+bool has_box(const Fit& fit, const Bounds& bounds, const Mat4& world_from_object, Vec3d center) {
+    if (bounds.empty) return true;
+    const Vec3f &low = bounds.min, &high = bounds.max;
+    const PlacedBox box({low.x, low.y, low.z}, {high.x, high.y, high.z}, world_from_object);
+    for (int k = 0; k < 8; ++k) {
+        const Vec3d corner{k & 1 ? box.high[0] : box.low[0], k & 2 ? box.high[1] : box.low[1], k & 4 ? box.high[2] : box.low[2]};
+        if (!fit.has(corner - center)) return false;
+    }
+    return true;
+}
+
 /// True if no vertex of the instance can change the fit, judged by its box, or by a ball around it. In scenes of many instances few are at
 /// the rim. radius: of that ball, object space; negative: not known.
 template <class Fit>
@@ -62,13 +75,7 @@ bool is_seen_already(const Fit& fit, const FramedVertices& used, double radius, 
         const double slack = 1e-6 * (length(middle) + scale * length(to_double(used.bounds.center())));
         if (fit.has_ball(middle - center, (1.0 + 1e-6) * scale * radius + slack)) return true;
     }
-    const Vec3f &low = used.bounds.min, &high = used.bounds.max;
-    const PlacedBox box({low.x, low.y, low.z}, {high.x, high.y, high.z}, world_from_object);
-    for (int k = 0; k < 8; ++k) {
-        const Vec3d corner{k & 1 ? box.high[0] : box.low[0], k & 2 ? box.high[1] : box.low[1], k & 4 ? box.high[2] : box.low[2]};
-        if (!fit.has(corner - center)) return false;
-    }
-    return true;
+    return has_box(fit, used.bounds, world_from_object, center);
 }
 
 /// Squared distance of the farthest point from the origin.
@@ -117,10 +124,15 @@ public:
             const FramedVertices& vertices = part_->meshes[static_cast<std::size_t>(instance.mesh)];
             const double radius = radii_[static_cast<std::size_t>(instance.mesh)];
             if (is_seen_already(fit, vertices, radius, instance.world_from_object, box_.center)) continue;
-            for (const std::uint32_t v : vertices.vertices) {
+            for (std::size_t b = 0; b < vertices.blocks.size(); ++b) {
                 check();
-                const Vec3f p = transform_point(instance.world_from_object, mesh.positions[v]);
-                if (finite(p)) fit.add(to_double(p) - box_.center);
+                if (has_box(fit, vertices.blocks[b], instance.world_from_object, box_.center)) continue;
+                const std::size_t first = b * FramedVertices::kBlock, end = std::min(first + FramedVertices::kBlock, vertices.vertices.size());
+                for (std::size_t k = first; k < end; ++k) {
+                    check();
+                    const Vec3f p = transform_point(instance.world_from_object, mesh.positions[vertices.vertices[k]]);
+                    if (finite(p)) fit.add(to_double(p) - box_.center);
+                }
             }
             for (const Vec3f& point : vertices.points) fit.add(to_double(transform_point(instance.world_from_object, point)) - box_.center);
         }

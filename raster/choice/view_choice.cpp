@@ -101,18 +101,20 @@ struct ChosenView {
 };
 
 ChosenView telling_view(const Scene& scene, const raster::FramedPart& part, const Bounds& box, const ViewSettings& usual) {
+    const Vec3f side = box.max - box.min;
+    const double high = static_cast<double>(side.y) / static_cast<double>(std::max({side.x, side.z, 1e-30f}));
+    const double raised = 1.0 - smoothstep((high - kHigh) / (kTall - kHigh));
+    raster::Hollows hollows(scene, part, box);
     Vec3d faces{};  // area that faces along each axis
-    raster::each_triangle(scene, part, [&](const std::array<Vec3d, 3>& at, bool) {
+    raster::each_triangle(scene, part, [&](const std::array<Vec3d, 3>& at, bool both_sides) {
+        if (raised > 0.0) hollows.add(at, both_sides);
         const Vec3d doubled = absolute(cross(at[1] - at[0], at[2] - at[0]));
         const double sum = (doubled.x + doubled.y) + doubled.z;
         if (sum < 1e300) faces = faces + doubled;
     });
     const double all = (faces.x + faces.y) + faces.z;
     if (!(all > 0.0)) return {usual, ViewReason::usual};
-    const Vec3f side = box.max - box.min;
-    const double high = static_cast<double>(side.y) / static_cast<double>(std::max({side.x, side.z, 1e-30f}));
-    const double raised = 1.0 - smoothstep((high - kHigh) / (kTall - kHigh));
-    const double hollow = raised > 0.0 ? raised * part_of(kHollow, raster::share_of_hollows(scene, part, box)) : 0.0;
+    const double hollow = raised > 0.0 ? raised * part_of(kHollow, hollows.share()) : 0.0;
     const std::pair<const Rule*, double> parts[] = {{&kFlat, raised * part_of(kFlat, faces.y / all)},
                                                     {&kHollow, hollow},
                                                     {&kThinAlongZ, part_of(kThinAlongZ, faces.z / all)},
@@ -158,8 +160,11 @@ ViewSettings front_view(const Scene& scene, ViewSettings view) {
 
 FramedView choose_view(const Scene& scene, const Bounds& bounds, float aspect, const ViewSettings& view) {
     const FpEnvironment environment_of_host;
+    return raster::choose_view(scene, raster::framed_part(scene), bounds, aspect, view);
+}
+
+FramedView raster::choose_view(const Scene& scene, const FramedPart& part, const Bounds& bounds, float aspect, const ViewSettings& view) {
     constexpr float kBehind = 180.0f, kBelow = -40.0f;
-    const raster::FramedPart part = raster::framed_part(scene);
     if (!is_usual(view)) return {view, frame_with_shadow(scene, part, bounds, aspect, view), ViewReason::given};
     const ChosenView telling = telling_view(scene, part, part.whole ? bounds : part.bounds, front_view(scene, view));
     const ViewSettings& most = telling.view;

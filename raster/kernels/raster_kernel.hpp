@@ -17,6 +17,7 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 }  // namespace HALFLIT_ISA_NAMESPACE
 }  // namespace halflit::raster
 
+#include "raster/kernels/background.hpp"
 #include "raster/kernels/bin_triangles.hpp"
 #include "raster/kernels/collect.hpp"
 #include "raster/kernels/cover_sweep.hpp"
@@ -29,7 +30,7 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 namespace halflit::raster {
 #define HALFLIT_RASTER_KERNELS HALFLIT_CONCAT(raster_kernels_, HALFLIT_ISA)
 extern const RasterKernels HALFLIT_RASTER_KERNELS;
-const RasterKernels HALFLIT_RASTER_KERNELS = {transform,   vertex_records, bin_triangles, rasterize,      rasterize_depth,
-                                              cover,       cover_layer,    cover_all,     draw_covered,   collect,
-                                              interpolate, distances,      sweep_covers,  sum_grid_terms, cover_ground};
+const RasterKernels HALFLIT_RASTER_KERNELS = {transform,    vertex_records, bin_triangles, rasterize,      rasterize_depth, cover,
+                                              cover_layer,  cover_all,      draw_covered,  collect,        interpolate,     distances,
+                                              sweep_covers, sum_grid_terms, cover_ground,  shadow_row,     take_means,      shade_background};
 }  // namespace halflit::raster

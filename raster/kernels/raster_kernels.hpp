@@ -256,6 +256,15 @@ struct GroundCover {
     float* sums;         ///< kGroundCells rows; what is hidden is added
 };
 
+/// The contact shadow at the pixels of a row of the picture. Its cell at a pixel whose middle is at x: the quotient of (x * [0] + [1]) + [2]
+/// of `cell_x` or `cell_z`, and of `weight`, whose [1] are those of the row.
+struct GroundShadow {
+    const float* hidden;  ///< share of each cell, kGroundCells rows
+    double weight[3], cell_x[3], cell_z[3];
+    int width, border;  ///< of the picture, pixels; pixels between the row and the picture's upper or lower border
+    double fade_px, opacity;
+};
+
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
@@ -284,6 +293,14 @@ struct RasterKernels {
     void (*sweep_covers)(const CoverSweep&);
     void (*sum_grid_terms)(const GridTermSums&);
     void (*cover_ground)(const GroundCover&);
+    /// Opacities of the contact shadow at `count` pixels from x_px on, at most kMaxTileSize.
+    void (*shadow_row)(const GroundShadow&, int x_px, int count, float* opacity);
+    // Whole vectors are read and written: rows are padded to a multiple of 16.
+    /// rows: light times alpha, and alpha, summed over a pixel's samples; they become its colour, the mean, not premultiplied. weight: 1 /
+    /// number of samples. Sums and quotients of infinite samples may be NaN; that becomes 0.
+    void (*take_means)(float weight, int count, float* const rows[4]);
+    /// The colours of pixels whose samples all show `back`, times alpha, and alpha, below black surfaces.
+    void (*shade_background)(const float (&back)[4], const float* opacity, int samples, int count, float* const rows[4]);
 };
 
 [[nodiscard]] const RasterKernels& raster_kernels(Isa isa);

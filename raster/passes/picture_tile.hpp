@@ -115,8 +115,14 @@ private:
         std::uint32_t code = 0;  ///< as the caller's memory has it
     };
     [[nodiscard]] Pixel background_pixel() const;  ///< of the background colour
-    /// Writes the background of pixels in the tile's buffers, at most kTileStride; plain: of the background colour.
-    void write_background(const int* at, int count, const Pixel& plain);
+    /// Writes the background of pixels of a row of the tile; plain: of the background colour.
+    void write_background(int row, std::uint64_t pixels, const Pixel& plain);
+    /// Opacities of the contact shadow in a row of the tile that has some.
+    [[nodiscard]] const float* shadow_row(int row) const;
+    /// Pixels of a row of the tile that are the caller's.
+    [[nodiscard]] std::uint64_t written_pixels() const {
+        return (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x);
+    }
     void fill_samples();                                                        ///< sets every sample to the background of its pixel
     void write(const FragmentList& list, const shading::FragmentBlock& block);  ///< to the caller's memory or to samples
     void write_samples(const FragmentList& list, const shading::FragmentBlock& block);

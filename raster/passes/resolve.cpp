@@ -14,14 +14,6 @@ float number_or_zero(float x) { return x == x ? x + 0.0f : 0.0f; }
 
 Vec4f number_or_zero(Vec4f v) { return {number_or_zero(v.x), number_or_zero(v.y), number_or_zero(v.z), number_or_zero(v.w)}; }
 
-/// Colour of a pixel, the mean of its samples, not premultiplied. sum: light times alpha, and alpha, summed over the samples. weight:
-/// 1 / number of samples. Sums and quotients of infinite samples may be NaN; that becomes 0.
-Vec4f resolved(const float (&sum)[4], float weight) {
-    const float alpha = sum[3] * weight;
-    if (!(alpha > 0.0f)) return {0, 0, 0, number_or_zero(alpha)};
-    return number_or_zero(Vec4f{sum[0] * weight / alpha, sum[1] * weight / alpha, sum[2] * weight / alpha, alpha});
-}
-
 /// Lays a black surface over light times alpha, and alpha.
 Vec4f under_shadow(Vec4f back, float opacity) {
     const float kept = 1.0f - opacity;
@@ -120,7 +112,7 @@ int PictureTile::part_of(int at) {
 Vec4f PictureTile::background_at(int at) const {
     const int x = rect_.x + at % kTileStride, y = rect_.y + at / kTileStride;
     const Vec4f back = has_background() ? number_or_zero(plan_.background.at(x, y)) : background_sample();
-    const float shadow = has_contact_shadow_ ? plan_.contact_shadow.at(x, y) : 0.0f;
+    const float shadow = has_contact_shadow_ ? shadow_row(y - rect_.y)[x - rect_.x] : 0.0f;
     return shadow == 0.0f ? back : under_shadow(back, shadow);
 }
 
@@ -219,89 +211,69 @@ void PictureTile::fill_background() {
         resolve();
         return;
     }
-    const Output& output = pass_.output;
     const Pixel back = background_pixel();
-    if (has_contact_shadow_) {
-        int at[kTileStride];
-        for (int y = written_.y; y < written_.y + written_.height; ++y) {
-            for (int x = 0; x < written_.width; ++x) at[x] = (y - rect_.y) * kTileStride + (written_.x - rect_.x) + x;
-            write_background(at, written_.width, back);
-        }
-        return;
-    }
-    if (output.codes) {
-        std::uint32_t code[kTileStride];
-        std::fill_n(code, written_.width, back.code);
-        for (int y = 0; y < written_.height; ++y)
-            std::memcpy(output.codes.at(written_.x, written_.y + y), code, 4 * static_cast<std::size_t>(written_.width));
-    }
-    if (output.linear)
-        for (int y = 0; y < written_.height; ++y)
-            for (int x = 0; x < written_.width; ++x)
-                output.write_linear(written_.x + x, written_.y + y, back.linear.x, back.linear.y, back.linear.z, back.linear.w);
+    for (int y = 0; y < written_.height; ++y) write_background(written_.y - rect_.y + y, written_pixels(), back);
 }
 
 /// Goes through samples in every case. Otherwise it would round differently in a tile or region that has nothing to blend.
 PictureTile::Pixel PictureTile::background_pixel() const {
     const Vec4f back = background_sample();
-    const float sample[4] = {back.x, back.y, back.z, back.w};
-    float sum[4] = {0, 0, 0, 0};
-    for (int s = 0; s < samples_; ++s)
-        for (int i = 0; i < 4; ++i) sum[i] += sample[i];
-    Pixel pixel{resolved(sum, 1.0f / static_cast<float>(samples_)), 0};
+    alignas(64) float rows[4][kPixelsARow];
+    alignas(64) constexpr float none[kPixelsARow] = {};
+    float* const to[4] = {rows[0], rows[1], rows[2], rows[3]};
+    pass_.view.raster.shade_background({back.x, back.y, back.z, back.w}, none, samples_, kPixelsARow, to);
+    Pixel pixel{{rows[0][0], rows[1][0], rows[2][0], rows[3][0]}, 0};
     if (!pass_.output.codes) return pixel;
-    alignas(64) float red[16], green[16], blue[16], alpha[16];
-    alignas(64) std::uint32_t code[16];  // the kernel writes whole vectors
-    for (int l = 0; l < 16; ++l) {
-        red[l] = pixel.linear.x;
-        green[l] = pixel.linear.y;
-        blue[l] = pixel.linear.z;
-        alpha[l] = pixel.linear.w;
-    }
-    pass_.view.shade.encode_srgb8(red, green, blue, alpha, 1.0f, code, 1);
+    alignas(64) std::uint32_t code[kPixelsARow];  // the kernel writes whole vectors
+    pass_.view.shade.encode_srgb8(rows[0], rows[1], rows[2], rows[3], 1.0f, code, 1);
     pass_.output.finish_codes(code, 1);
     pixel.code = code[0];
     return pixel;
 }
 
+const float* PictureTile::shadow_row(int row) const {
+    TileScratch::ShadowRows& shadow = scratch_.shadow;
+    float* const opacity = shadow.opacity[row];
+    if ((shadow.known >> row & 1) == 0) plan_.contact_shadow.row(pass_.view.raster, rect_.x, rect_.y + row, rect_.width, opacity);
+    shadow.known |= std::uint64_t{1} << row;
+    return opacity;
+}
+
 /// The same as through samples: without surfaces all are alike.
-void PictureTile::write_background(const int* at, int count, const Pixel& plain) {
+void PictureTile::write_background(int row, std::uint64_t pixels, const Pixel& plain) {
+    if (pixels == 0) return;
     const Output& output = pass_.output;
-    const Vec4f back = background_sample();
-    const auto place = [&](int one) { return std::pair(rect_.x + one % kTileStride, rect_.y + one / kTileStride); };
-    int shadowed[kTileStride], some = 0;
-    float sample[4][kTileStride];
-    for (int i = 0; i < count; ++i) {
-        const auto [x, y] = place(at[i]);
-        if (const float shadow = plan_.contact_shadow.at(x, y); shadow > 0.0f) {
-            const Vec4f color = under_shadow(back, shadow);
-            sample[0][some] = color.x, sample[1][some] = color.y, sample[2][some] = color.z, sample[3][some] = color.w;
-            shadowed[some++] = at[i];
-            continue;
+    const int y = rect_.y + row;
+    alignas(64) std::uint32_t code[kTileStride];
+    std::fill_n(code, rect_.width, plain.code);
+    int first = rect_.width, end = 0;  // of the shadow
+    alignas(64) float linear[4][kTileStride] = {};
+    if (has_contact_shadow_) {
+        const float* const opacity = shadow_row(row);
+        for (first = 0, end = rect_.width; first < end && !(opacity[first] > 0.0f);) ++first;
+        while (end > first && !(opacity[end - 1] > 0.0f)) --end;
+        first &= ~(kTilePadding - 1);
+        if (first < end) {
+            const Vec4f back = background_sample();
+            float* const rows[4] = {linear[0] + first, linear[1] + first, linear[2] + first, linear[3] + first};
+            pass_.view.raster.shade_background({back.x, back.y, back.z, back.w}, opacity + first, samples_, end - first, rows);
+            if (output.codes) {
+                pass_.view.shade.encode_srgb8(rows[0], rows[1], rows[2], rows[3], 1.0f, code + first, end - first);
+                output.finish_codes(code + first, end - first);
+                std::fill(code + end, code + rect_.width, plain.code);
+            }
         }
-        if (output.codes) std::memcpy(output.codes.at(x, y), &plain.code, sizeof plain.code);
-        if (output.linear) output.write_linear(x, y, plain.linear.x, plain.linear.y, plain.linear.z, plain.linear.w);
     }
-    if (some == 0) return;
-    ResolvedPixels row;
-    const float weight = 1.0f / static_cast<float>(samples_);
-    for (int k = 0; k < 4; ++k) {
-        std::copy_n(sample[k], some, row.linear[k]);
-        for (int s = 1; s < samples_; ++s)
-            for (int i = 0; i < some; ++i) row.linear[k][i] += sample[k][i];
-    }
-    for (int i = 0; i < some; ++i) {
-        const Vec4f pixel = resolved({row.linear[0][i], row.linear[1][i], row.linear[2][i], row.linear[3][i]}, weight);
-        row.linear[0][i] = pixel.x, row.linear[1][i] = pixel.y, row.linear[2][i] = pixel.z, row.linear[3][i] = pixel.w;
-    }
-    if (output.codes) {
-        pass_.view.shade.encode_srgb8(row.linear[0], row.linear[1], row.linear[2], row.linear[3], 1.0f, row.code, some);
-        output.finish_codes(row.code, some);
-    }
-    for (int i = 0; i < some; ++i) {
-        const auto [x, y] = place(shadowed[i]);
-        if (output.codes) std::memcpy(output.codes.at(x, y), &row.code[i], sizeof row.code[i]);
-        if (output.linear) output.write_linear(x, y, row.linear[0][i], row.linear[1][i], row.linear[2][i], row.linear[3][i]);
+    while (pixels != 0) {
+        const int x = std::countr_zero(pixels), run = std::countr_one(pixels >> x);
+        pixels &= run + x == 64 ? 0 : ~std::uint64_t{0} << (x + run);
+        if (output.codes) std::memcpy(output.codes.at(rect_.x + x, y), code + x, 4 * static_cast<std::size_t>(run));
+        if (!output.linear) continue;
+        for (int i = x; i < x + run; ++i) {
+            const bool is_shaded = i >= first && i < end;
+            const Vec4f pixel = is_shaded ? Vec4f{linear[0][i], linear[1][i], linear[2][i], linear[3][i]} : plain.linear;
+            output.write_linear(rect_.x + i, y, pixel.x, pixel.y, pixel.z, pixel.w);
+        }
     }
 }
 
@@ -328,22 +300,13 @@ void PictureTile::resolve_parts() {
     const Pixel back = has_background() ? Pixel{} : background_pixel();
     for (int y = written_.y; y < written_.y + written_.height; ++y) {
         const std::size_t row = static_cast<std::size_t>(y - rect_.y);
-        const std::uint64_t wanted = (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x);
-        int at[kTileStride], count = 0;
-        for (std::uint64_t left = wanted & ~(parts.whole[row] | parts.part[row]); left != 0; left &= left - 1) {
-            const int x = std::countr_zero(left);
-            if (has_background()) {
-                (void)part_of(static_cast<int>(row) * kTileStride + x);
-                continue;
-            }
-            if (has_contact_shadow_) {
-                at[count++] = static_cast<int>(row) * kTileStride + x;
-                continue;
-            }
-            if (output.codes) std::memcpy(output.codes.at(rect_.x + x, y), &back.code, sizeof back.code);
-            if (output.linear) output.write_linear(rect_.x + x, y, back.linear.x, back.linear.y, back.linear.z, back.linear.w);
+        const std::uint64_t empty = written_pixels() & ~(parts.whole[row] | parts.part[row]);
+        if (!has_background()) {
+            write_background(static_cast<int>(row), empty, back);
+            continue;
         }
-        write_background(at, count, back);
+        for (std::uint64_t left = empty; left != 0; left &= left - 1)
+            (void)part_of(static_cast<int>(row) * kTileStride + std::countr_zero(left));
     }
     ResolvedPixels some;
     for (int first = 0; first < parts.count; first += kMaxTileSize) {
@@ -360,29 +323,25 @@ void PictureTile::resolve_parts() {
 
 void PictureTile::resolve(int at, int count, ResolvedPixels& out) {
     const Output& output = pass_.output;
-    const float weight = 1.0f / static_cast<float>(samples_);
-    const auto set = [](float(&to)[4][kTileStride], int x, Vec4f pixel) {
-        to[0][x] = pixel.x;
-        to[1][x] = pixel.y;
-        to[2][x] = pixel.z;
-        to[3][x] = pixel.w;
+    const auto take_means = [&](float(&of)[4][kTileStride]) {
+        float* const rows[4] = {of[0], of[1], of[2], of[3]};
+        pass_.view.raster.take_means(1.0f / static_cast<float>(samples_), count, rows);
     };
-    if (output.linear || !toned_)
-        for (int x = 0; x < count; ++x) {
-            float sum[4] = {0, 0, 0, 0};
-            for (int s = 0; s < samples_; ++s)
-                for (int i = 0; i < 4; ++i) sum[i] += sample_color(s)[4 * (at + x) + i];
-            set(out.linear, x, resolved(sum, weight));
-        }
+    if (output.linear || !toned_) {
+        for (int x = 0; x < count; ++x)
+            for (int i = 0; i < 4; ++i) {
+                float sum = 0.0f;
+                for (int s = 0; s < samples_; ++s) sum += sample_color(s)[4 * (at + x) + i];
+                out.linear[i][x] = sum;
+            }
+        take_means(out.linear);
+    }
     if (!output.codes) return;
     if (toned_) {
-        float sums[4][kTileStride] = {};
-        float* const rows[4] = {sums[0], sums[1], sums[2], sums[3]};
+        for (auto& row : out.display) std::fill_n(row, kTileStride, 0.0f);
+        float* const rows[4] = {out.display[0], out.display[1], out.display[2], out.display[3]};
         add_toned_samples(at, count, rows);
-        for (int x = 0; x < count; ++x) {
-            const float sum[4] = {sums[0][x], sums[1][x], sums[2][x], sums[3][x]};
-            set(out.display, x, resolved(sum, weight));
-        }
+        take_means(out.display);
     }
     const auto& shown = toned_ ? out.display : out.linear;
     pass_.view.shade.encode_srgb8(shown[0], shown[1], shown[2], shown[3], 1.0f, out.code, count);

@@ -16,6 +16,7 @@ TileCounts PictureTile::draw() {
     transmits_ = plan_.transmits && layered;
     shades_ = pass_.output.has_colors();
     has_contact_shadow_ = !pass_.view.behind && plan_.contact_shadow.touches({rect_.x, rect_.y, rect_.width, rect_.height});
+    scratch_.shadow.known = 0;
     joins_ = shades_ && plan_.options.rate == ShadingRate::pixel && pass_.view.geometry.few_vertices();
     has_whole_ = samples_ > 1 && !layered && !empty && pass_.reference == nullptr;
     if (!empty) draw_visibility(pass_.view, tile_, scratch_, counts_);

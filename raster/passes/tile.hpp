@@ -121,6 +121,12 @@ struct TileScratch {
         int count;
     };
     PartPixels parts;
+    /// Opacities of the contact shadow in rows of the tile.
+    struct ShadowRows {
+        std::uint64_t known = 0;  ///< bit y: row y is set
+        alignas(64) float opacity[kMaxTileSize][kMaxTileSize]{};
+    };
+    ShadowRows shadow;
     RawBuffer<float> shown;                ///< what shows in every sample of colours of the display: times alpha, and alpha
     std::vector<std::uint32_t> tile_list;  ///< ViewGeometry::tile_list's
 };

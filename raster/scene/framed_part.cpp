@@ -12,6 +12,7 @@
 #include "sh/vec3d.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -164,9 +165,10 @@ FramedVertices framed_vertices(const Scene& scene, const Mesh& mesh, const Mater
     FramedVertices kept;
     const auto is_kept = [&](const Vec3f& p) { return !finite(p) || box->holds(box_at(p)); };
     for (const std::uint32_t v : seen.vertices)
-        if (is_kept(mesh.positions[v])) kept.vertices.push_back(v), kept.bounds.add(mesh.positions[v]);
+        if (is_kept(mesh.positions[v])) kept.vertices.push_back(v);
     for (const Vec3f& p : seen.points)
-        if (is_kept(p)) kept.points.push_back(p), kept.bounds.add(p);
+        if (is_kept(p)) kept.points.push_back(p);
+    kept.measure(mesh);
     kept.far_left_out = true;
     whole = false;
     return kept;
@@ -294,6 +296,24 @@ std::vector<const Material*> common_materials(const Scene& scene) {
 }
 
 }  // namespace
+
+void FramedVertices::measure(const Mesh& mesh) {
+    bounds = {};
+    blocks.clear();
+    for (std::size_t first = 0; first < vertices.size(); first += kBlock) {
+        const std::size_t end = std::min(first + kBlock, vertices.size());
+        constexpr float kLargest = std::numeric_limits<float>::max();
+        Vec3f low{kLargest, kLargest, kLargest}, high{-kLargest, -kLargest, -kLargest};
+        for (std::size_t i = first; i < end; ++i) {
+            const Vec3f p = mesh.positions[vertices[i]];
+            if (!finite(p)) continue;
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+        bounds.include(blocks.emplace_back(Bounds{low, high, !(low.x <= high.x)}));
+    }
+    for (const Vec3f& p : points) bounds.add(p);
+}
 
 FramedPart framed_part(const Scene& scene) {
     FramedPart part;

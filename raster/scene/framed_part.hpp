@@ -26,10 +26,15 @@ namespace halflit::raster {
 
 /// Vertices of a mesh that are framed.
 struct FramedVertices {
+    static constexpr std::size_t kBlock = 64;
     std::vector<std::uint32_t> vertices;
-    std::vector<Vec3f> points;  ///< others on its surface: around the texels that are seen of large triangles
-    Bounds bounds;              ///< object space
-    bool far_left_out = false;  ///< some are far from the others
+    std::vector<Vec3f> points;   ///< others on its surface: around the texels that are seen of large triangles
+    std::vector<Bounds> blocks;  ///< of kBlock vertices each, object space
+    Bounds bounds;               ///< of all, object space
+    bool far_left_out = false;   ///< some are far from the others
+
+    /// Sets the boxes.
+    void measure(const Mesh& mesh);
 };
 
 enum class LeftOutFor : std::uint8_t { far, ground, shell, backdrop };

@@ -190,6 +190,12 @@ void PreparedData::measure_framed() {
         if (counts_for_views(*scene_, scene_->instances[i])) framed_bounds_.include(instance_bounds_[i]);
 }
 
+const FramedPart& PreparedData::framed_part() const {
+    const std::lock_guard<std::mutex> lock(part_->finding);
+    if (part_->part == nullptr) part_->part = std::make_unique<const FramedPart>(raster::framed_part(*scene_));
+    return *part_->part;
+}
+
 void PreparedData::find_coplanar(std::span<const std::uint8_t> moved) {
     std::vector<CoplanarPair> found = find_coplanar_pairs(*this, moved);
     std::erase_if(coplanar_pairs_, [&](const CoplanarPair& pair) {
@@ -317,6 +323,7 @@ Result<void> PreparedData::apply_pending(const Execution& execution) {
         find_coplanar(moved);
     }
     if (pending_.lights) revision_.lights = next_revision();
+    if (deformed || pending_.materials || !pending_.changed_instances.empty()) part_->part.reset();
     return {};
 }
 

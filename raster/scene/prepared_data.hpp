@@ -5,11 +5,14 @@
 #include "halflit/prepared_scene.hpp"
 #include "halflit/scene.hpp"
 #include "raster/scene/coplanar.hpp"
+#include "raster/scene/framed_part.hpp"
 #include "raster/scene/prepared_mesh.hpp"
 #include "raster/scene/shadow_casters.hpp"
 #include "shading/fragment_block.hpp"
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,6 +49,8 @@ public:
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     /// What views look at; the same as scene_bounds().
     [[nodiscard]] const Bounds& framed_bounds() const { return framed_bounds_; }
+    /// The part of the scene that views of the whole are fitted to, found by the first call.
+    [[nodiscard]] const FramedPart& framed_part() const;
     [[nodiscard]] const PreparedMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
     /// World-space box of each instance.
     [[nodiscard]] std::span<const Bounds> instance_bounds() const { return instance_bounds_; }
@@ -95,7 +100,13 @@ private:
     [[nodiscard]] std::size_t material_count() const { return scene_->materials.size() + 1 + looks_.size(); }
     [[nodiscard]] std::size_t material_index_of(const Instance& instance) const;
 
+    struct KeptPart {
+        std::mutex finding;
+        std::unique_ptr<const FramedPart> part;
+    };
+
     const Scene* scene_ = nullptr;
+    std::unique_ptr<KeptPart> part_ = std::make_unique<KeptPart>();
     SceneRevision revision_;
     SceneChanges pending_;  ///< told, and not yet applied
     bool up_to_date_ = true;

@@ -105,8 +105,8 @@ FramedVertices seen_vertices(const Scene& scene, const Mesh& mesh, const Materia
     }
     if (used.empty()) used = used_vertices(mesh);
     for (std::uint32_t v = 0; v < used.size(); ++v)
-        if (used[v]) out.vertices.push_back(v), out.bounds.add(mesh.positions[v]);
-    for (const Vec3f& p : out.points) out.bounds.add(p);
+        if (used[v]) out.vertices.push_back(v);
+    out.measure(mesh);
     return out;
 }
 

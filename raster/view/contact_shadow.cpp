@@ -186,21 +186,19 @@ bool ContactShadow::touches(const Region& rect) const {
            rect.y < around_.y + around_.height && around_.y < rect.y + rect.height;
 }
 
-float ContactShadow::at(int x_px, int y_px) const {
-    if (!touches({x_px, y_px, 1, 1})) return 0.0f;
-    const Vec3d place{x_px + 0.5, y_px + 0.5, 1.0};
-    const double weight = dot(weight_, place);
-    if (!(weight > 0.0)) return 0.0f;
-    const double per_weight = 1.0 / weight, x = dot(cell_of_x_, place) * per_weight, z = dot(cell_of_z_, place) * per_weight;
-    if (!(x >= 0.0 && x < kSide - 1 && z >= 0.0 && z < kSide - 1)) return 0.0f;
-    const int i = static_cast<int>(x), k = static_cast<int>(z);
-    const float* const upper = &map_->hidden[static_cast<std::size_t>(k * kSide + i)];
-    const float* const lower = upper + kSide;
-    const double u = x - i, v = z - k;
-    const double above = upper[0] + (double{upper[1]} - upper[0]) * u, below = lower[0] + (double{lower[1]} - lower[0]) * u;
-    const double share = above + (below - above) * v;
-    const int border = std::min(std::min(x_px, y_px), std::min(width_ - 1 - x_px, height_ - 1 - y_px));
-    return static_cast<float>(share * (border < fade_px_ ? opacity_ * smoothstep(border / fade_px_) : opacity_));
+void ContactShadow::row(const RasterKernels& kernels, int x_px, int y_px, int count, float* opacity) const {
+    if (!touches({x_px, y_px, count, 1})) {
+        std::fill_n(opacity, count, 0.0f);
+        return;
+    }
+    const double middle = y_px + 0.5;
+    const auto in_row = [&](double(&to)[3], Vec3d of) { to[0] = of.x, to[1] = of.y * middle, to[2] = of.z; };
+    GroundShadow shadow{};
+    shadow.hidden = map_->hidden.data();
+    in_row(shadow.weight, weight_), in_row(shadow.cell_x, cell_of_x_), in_row(shadow.cell_z, cell_of_z_);
+    shadow.width = width_, shadow.border = std::min(y_px, height_ - 1 - y_px);
+    shadow.fade_px = fade_px_, shadow.opacity = opacity_;
+    kernels.shadow_row(shadow, x_px, count, opacity);
 }
 
 }  // namespace halflit::raster

@@ -42,10 +42,11 @@ public:
     /// the eye is not above the ground.
     ContactShadow(std::shared_ptr<const ContactMap> map, const Camera& camera, int width, int height, float opacity);
 
-    /// False: at() is 0 in all of the rectangle.
+    /// False: there is none in all of the rectangle.
     [[nodiscard]] bool touches(const Region& rect) const;
-    /// Opacity at a pixel's centre, from 0 to 1; 0 at the picture's border. Depends only on the pixel's position in the whole picture.
-    [[nodiscard]] float at(int x_px, int y_px) const;
+    /// Opacities at the centres of `count` pixels from (x_px, y_px) on, at most kMaxTileSize, from 0 to 1; 0 at the picture's border. Each
+    /// depends only on the pixel's position in the whole picture.
+    void row(const RasterKernels& kernels, int x_px, int y_px, int count, float* opacity) const;
 
 private:
     std::shared_ptr<const ContactMap> map_;  ///< null: no shadow

@@ -247,7 +247,7 @@ struct Part {
     bool whole = true;
 };
 Part part_of(const PreparedData& prepared) {
-    const FramedPart framed = framed_part(prepared.scene());
+    const FramedPart& framed = prepared.framed_part();
     const Bounds& all = prepared.framed_bounds();
     if (framed.whole) return {to_double(all.min), to_double(all.max)};
     const Vec3d low = to_double(framed.bounds.min), high = to_double(framed.bounds.max), side = high - low;

@@ -78,8 +78,20 @@ struct ShadeKernels {
     /// A is the linear alpha in 8 bits. All are rounded to nearest; NaN gives 0. All arrays are padded to a multiple of 16 lanes.
     void (*encode_srgb8)(const float* red, const float* green, const float* blue, const float* alpha, float exposure, std::uint32_t* rgba8,
                          int count);
+
+    // Making of textures, four values a texel:
+    /// The mean of 2 x 2 texels, rounded, for `width` texels of a smaller level.
+    void (*halve_texels)(const std::uint16_t* upper, const std::uint16_t* lower, int width, std::uint16_t* to);
+    /// Unit normals of `width` texels; +z of one without a direction.
+    void (*unit_normals)(const std::uint16_t* texels, int width, double* x, double* y, double* z);
+    /// The mean of 2 x 2 numbers, for `width` of a smaller level.
+    void (*halve_means)(const double* upper, const double* lower, int width, double* to);
+    /// What the lengths of means of normals have lost (texture_texels.hpp), 65535 for 1, to the first value of each texel from `to` on.
+    void (*lost_lengths)(const double* x, const double* y, const double* z, int width, std::uint16_t* to);
 };
 
 [[nodiscard]] const ShadeKernels& shade_kernels(Isa isa);
+/// Those of default_isa(), for what is made before a frame is drawn.
+[[nodiscard]] const ShadeKernels& usual_kernels();
 
 }  // namespace halflit::shading

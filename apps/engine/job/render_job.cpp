@@ -17,7 +17,7 @@
 #include "halflit/scene.hpp"
 #include "raster/check_execution.hpp"
 #include "raster/choice/completed_light.hpp"
-#include "raster/scene/framed_part.hpp"
+#include "raster/scene/prepared_data.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
@@ -147,7 +147,7 @@ void warn_of_left_out(RenderJob& job) {
     const NameOfInstance name_of = names_of(job.source.parts);
     std::vector<std::string> named;
     std::set<std::pair<int, raster::LeftOutFor>> noted;
-    for (const auto& [instance, reason, partly] : raster::framed_part(job.scene()).left_out) {
+    for (const auto& [instance, reason, partly] : job.prepared->data().framed_part().left_out) {
         if (reason != raster::LeftOutFor::far && reason != raster::LeftOutFor::shell) continue;
         const int part = job.source.parts->of_instance(static_cast<std::size_t>(instance));
         if (part >= 0 && !noted.emplace(part, reason).second) continue;
@@ -171,7 +171,7 @@ Result<void> choose(RenderJob& job, const RenderOptions& options, PictureRequest
         all.camera = request.camera, all.frame = request.frame, all.view = options.view;
         return all;
     }();
-    auto choice = choose_picture(job.scene(), job.film.bounds, request);
+    auto choice = choose_picture(*job.prepared, job.film.bounds, request);
     if (!choice && choice.error().code == ErrorCode::usage) return fail(choice.error().code, "--" + choice.error().message);
     if (!choice) return fail(choice.error().code, job.source.name + ": " + choice.error().message);
     job.width = choice->size.width, job.height = choice->size.height;

@@ -4,6 +4,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/error.hpp"
 #include "halflit/export.hpp"
+#include "halflit/prepared_scene.hpp"
 #include "halflit/scene.hpp"
 #include "halflit/settings.hpp"
 #include "halflit/target.hpp"
@@ -86,8 +87,9 @@ struct PictureChoice : AutoSetup {
 /// Chooses the picture's size too, by the shape of the camera: the one place that decides what a picture shows. Program, C and Python call
 /// it. Errors: usage, for a scene_camera that the scene does not have, and a size below 1.
 [[nodiscard]] HALFLIT_API Result<PictureChoice> choose_picture(const Scene& scene, const PictureRequest& request = {});
-/// The same. bounds: scene_bounds(scene).
-[[nodiscard]] HALFLIT_API Result<PictureChoice> choose_picture(const Scene& scene, const Bounds& bounds, const PictureRequest& request);
+/// The same of a prepared scene, which keeps what views are fitted to. bounds: scene.bounds(), or around all that a film shows.
+[[nodiscard]] HALFLIT_API Result<PictureChoice> choose_picture(const PreparedScene& scene, const Bounds& bounds,
+                                                               const PictureRequest& request);
 
 /// The scene's first camera, or null if it has none, or if that camera shows it small or not at all: the box around the scene, between the
 /// camera's near and far plane, fills less than a sixth of its picture, unless it lies in it as a whole and spans two thirds of its width

@@ -38,6 +38,9 @@ struct Sampler {
 };
 
 class MomentLevels;
+namespace shading {
+struct ShadeKernels;
+}
 
 /// One mip level, and its place in Texture::data().
 struct TextureLevel {
@@ -127,6 +130,7 @@ private:
     std::vector<TextureLevel> levels_;              ///< those left out, and the texture's
     std::vector<std::vector<std::uint16_t>> held_;  ///< the last rows of those left out
     std::vector<int> rows_;                         ///< of each level that are done
+    const shading::ShadeKernels* kernels_ = nullptr;
     std::unique_ptr<MomentLevels> moments_;         ///< for rules other than equal
 };
 
