@@ -288,7 +288,7 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
     }
     Settings of_sky = settings;
     of_sky.shadow_softness_deg = 0.0f;
-    of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.texel_count * sizeof(float));
+    of_sky.shadow_memory_limit -= std::min(of_sky.shadow_memory_limit, shadows.bytes());
     auto views = plan_shadow_views(plan.lights, scene, nullptr, of_sky, {std::min(sizes.most, kSkyMapSize)});
     if (!views) return tl::unexpected<Error>(views.error());
     const std::vector<std::int32_t> maps = views->map_of_light;
@@ -337,8 +337,12 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     if (!finite_views) return fail(ErrorCode::bad_input, "the camera's matrix is not finite");
     plan.shadow_views = std::move(shadows->views);
     if (memory.shadow_texels && shadows->texel_count > 0) {
-        const float* texels = memory.shadow_texels->reserve(shadows->texel_count, *memory.stop);
-        for (std::size_t i = 0; i < shadows->maps.size(); ++i) shadows->maps[i].distance = texels + shadows->first_texel[i];
+        const float* const texels = memory.shadow_texels->reserve(shadows->texel_count + shadows->wide_count, *memory.stop);
+        for (std::size_t i = 0; i < shadows->maps.size(); ++i) {
+            shadows->maps[i].distance = texels + shadows->first_texel[i];
+            shadows->maps[i].wide = texels + shadows->texel_count + shadows->first_wide[i];
+        }
+        for (ShadowView& face : plan.shadow_views) face.first_wide += shadows->texel_count;
     }
 
     shading::SceneFacts facts;

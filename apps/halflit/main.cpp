@@ -42,12 +42,9 @@ int print(const std::string& text) {
 }
 
 /// `halflit SCENE` is `halflit render SCENE`; its flags may come first.
-bool means_render(std::span<const Command> commands, const std::vector<std::string>& arguments) {
+bool means_render(const std::vector<std::string>& arguments) {
     if (arguments.empty()) return false;
     const std::string& first = arguments[0];
-    const auto is_command = [&](const std::string& word) {
-        return std::any_of(commands.begin(), commands.end(), [&](const Command& command) { return command.name == word; });
-    };
     if (is_command(first)) return false;
     if (first == "--") return true;
     if (!first.starts_with('-') || first == "-") return is_scene(first) || is_folder(first);  // a folder: for its message
@@ -55,7 +52,8 @@ bool means_render(std::span<const Command> commands, const std::vector<std::stri
     for (std::size_t i = 1; i < arguments.size(); ++i)
         if (is_command(arguments[i]) && !is_scene(arguments[i]) && !arguments[i - 1].starts_with('-')) return false;
     const std::string name = first.substr(0, first.find('='));
-    for (const Flag* flag : flags_of(commands[0]))
+    const Command render = render_command();
+    for (const Flag* flag : flags_of(render))
         for (const std::string& spelling : words_of(flag->names, ','))
             if (spelling == name || (spelling.size() == 2 && name.starts_with(spelling)))
                 return std::any_of(arguments.begin() + 1, arguments.end(), is_scene);
@@ -70,10 +68,11 @@ int parse_and_run(int argc, char** argv) {
         print_error("the limit of stacks is " + std::to_string(stack >> 10) + " KiB (ulimit -s), expected at least 256");
         return static_cast<int>(ErrorCode::limit);
     }
-    const std::vector<Command> commands = all_commands();
     std::vector<std::string> arguments = platform::arguments(argc, argv);
-    if (arguments.empty() && platform::is_terminal(platform::Stream::output)) return print(program_help(commands, false, help_width()));
-    if (means_render(commands, arguments)) arguments.insert(arguments.begin(), commands[0].name);
+    if (arguments.empty() && platform::is_terminal(platform::Stream::output))
+        return print(program_help(all_commands(), false, help_width()));
+    if (means_render(arguments)) arguments.insert(arguments.begin(), "render");
+    const std::vector<Command> commands = commands_for(arguments.empty() ? std::string() : arguments[0]);
     const auto line = parse_command_line(commands, std::move(arguments));
     if (!line) {
         print_error(line.error().message);

@@ -9,6 +9,14 @@ namespace {
 /// Geometry of more vertices is not kept for the next frame, because the picture needs as much memory afterwards; nor is that of batches.
 constexpr std::int64_t kMostVerticesForNextFrame = std::int64_t{1} << 22;
 
+void gather_wide(const float* distance, int size, float* out) {
+    const int side = shading::wide_side(size);
+    for (int j = 0; j < side; ++j) {
+        const float* const row = distance + static_cast<std::ptrdiff_t>(shading::wide_texel(j, size)) * size;
+        for (int i = 0; i < side; ++i) *out++ = row[shading::wide_texel(i, size)];
+    }
+}
+
 }  // namespace
 
 Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& plan, const ShadowView& face, float* texels,
@@ -17,6 +25,7 @@ Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& p
     float* distance = texels + face.first_texel;
     if (!face.sees_casters) {
         std::fill_n(distance, size * size, shading::kNoBlocker);
+        if (face.penumbra) gather_wide(distance, face.view.region.width, texels + face.first_wide);
         return {};
     }
     ViewGeometry& geometry = work_->geometry;
@@ -41,6 +50,7 @@ Result<void> ShadowMaps::draw_face(const PreparedData& scene, const FramePlan& p
         for (int y = 0; y < rect.height; ++y, out += size)
             raster.distances(range, scratch->buffers.depth[0] + y * kTileStride, rect.width, out);
     });
+    if (face.penumbra) gather_wide(distance, face.view.region.width, texels + face.first_wide);
     return {};
 }
 

@@ -157,13 +157,17 @@ int side_for(const Choice& choice, const LightPlan& light, const Bounds& bounds,
 
 int size_of(const Choice& choice) { return choice.kind == ShadowMapPlan::Kind::cube ? choice.side / 2 : choice.side; }
 
+std::size_t wide_texels(int size) { return static_cast<std::size_t>(shading::wide_side(size)) * static_cast<std::size_t>(shading::wide_side(size)); }
+
 /// Number of texels of all maps.
-std::size_t texel_count(std::span<const Choice> choices) {
+std::size_t texel_count(std::span<const Choice> choices, bool penumbras) {
     std::size_t count = 0;
     for (const Choice& choice : choices) {
         if (choice.boxes.empty()) continue;
         const auto size = static_cast<std::size_t>(size_of(choice));
-        count += size * size * (choice.kind == ShadowMapPlan::Kind::cube ? 6 : 1 + choice.depths.size());
+        const bool is_wide = penumbras && choice.kind == ShadowMapPlan::Kind::orthographic;
+        const std::size_t of_map = size * size + (is_wide ? wide_texels(size_of(choice)) : 0);
+        count += of_map * (choice.kind == ShadowMapPlan::Kind::cube ? 6 : 1 + choice.depths.size());
     }
     return count;
 }
@@ -195,7 +199,7 @@ public:
     }
 
 private:
-    void begin_map() { out_.first_texel.push_back(out_.texel_count); }
+    void begin_map() { out_.first_texel.push_back(out_.texel_count), out_.first_wide.push_back(out_.wide_count); }
 
     void add_fitted(const Choice& choice, ShadowMapPlan& map, double usable) {
         const bool orthographic = map.kind == ShadowMapPlan::Kind::orthographic;
@@ -265,6 +269,9 @@ private:
         face.first_texel = out_.texel_count;
         face.sees_casters = sees_casters;
         out_.texel_count += static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size);
+        face.penumbra = map.penumbra > 0.0f;
+        face.first_wide = out_.wide_count;
+        if (face.penumbra) out_.wide_count += wide_texels(map.size);
     }
 
     const Bounds& bounds_;
@@ -302,19 +309,20 @@ Result<ShadowViews> plan_shadow_views(std::span<const LightPlan> lights, const P
             choice.depths = cascade_depths(choice.view, choice.side, *seen, nearest_seen);
     }
     const std::size_t most = settings.shadow_memory_limit / sizeof(float);
+    const SinCos softness = sin_cos(static_cast<double>(settings.shadow_softness_deg) * (kPi / 180.0));
+    const double penumbra = 2.0 * softness.sin / softness.cos;
     int side = largest;
-    while (side > kShadowSizeStep && texel_count(choices) > most) {
+    while (side > kShadowSizeStep && texel_count(choices, penumbra > 0.0) > most) {
         side = halved_shadow_size(side);
         for (Choice& choice : choices) choice.side = std::min(choice.side, side);
     }
-    if (texel_count(choices) > most)
+    if (texel_count(choices, penumbra > 0.0) > most)
         return fail(ErrorCode::limit, "shadow maps of " + std::to_string(lights.size()) + " lights do not fit in " +
                                           std::to_string(settings.shadow_memory_limit) + " bytes even at 64 texels a side");
     if (side < largest)
         out.warning = "shadow maps of " + std::to_string(side) + " texels a side instead of " + std::to_string(largest) +
                       ", to stay within " + std::to_string(settings.shadow_memory_limit) + " bytes";
-    const SinCos softness = sin_cos(static_cast<double>(settings.shadow_softness_deg) * (kPi / 180.0));
-    Planner planner(bounds, seen, 2.0 * softness.sin / softness.cos, out);
+    Planner planner(bounds, seen, penumbra, out);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         out.map_of_light.push_back(-1);
         if (!choices[i].boxes.empty()) planner.add(lights[i], choices[i]);
@@ -326,11 +334,12 @@ std::size_t append(ShadowViews& to, ShadowViews&& more) {
     const std::size_t before = to.maps.size();
     to.maps.insert(to.maps.end(), more.maps.begin(), more.maps.end());
     for (const std::size_t first : more.first_texel) to.first_texel.push_back(first + to.texel_count);
+    for (const std::size_t first : more.first_wide) to.first_wide.push_back(first + to.wide_count);
     for (ShadowView& view : more.views) {
-        view.first_texel += to.texel_count;
+        view.first_texel += to.texel_count, view.first_wide += to.wide_count;
         to.views.push_back(std::move(view));
     }
-    to.texel_count += more.texel_count;
+    to.texel_count += more.texel_count, to.wide_count += more.wide_count;
     if (!to.warning.empty() && !more.warning.empty()) to.warning += "; ";
     to.warning += more.warning;
     return before;

@@ -22,6 +22,8 @@ struct ShadowView {
     bool perspective = false;
     float near_z = 0, far_z = 0;  ///< planes of its camera
     std::size_t first_texel = 0;  ///< index of its first texel in those of all maps
+    std::size_t first_wide = 0;   ///< the same of the widest filter's (ShadowMapPlan::wide), if there is a penumbra
+    bool penumbra = false;
     bool sees_casters = true;     ///< false: nothing that casts a shadow is in view, or nothing that one falls on, and nothing is drawn
     friend bool operator==(const ShadowView&, const ShadowView&) = default;
 };
@@ -29,9 +31,11 @@ struct ShadowView {
 struct ShadowViews {
     std::vector<shading::ShadowMapPlan> maps;  ///< without the pointers to their texels
     std::vector<std::size_t> first_texel;      ///< per map: index of its first texel
+    std::vector<std::size_t> first_wide;       ///< per map: index of its first texel of the widest filter, in those of all maps
     std::vector<std::int32_t> map_of_light;    ///< per light: its map, the finest of its cascades, or -1
     std::vector<ShadowView> views;             ///< in the order of the maps; a cube has six
-    std::size_t texel_count = 0;
+    std::size_t texel_count = 0, wide_count = 0;
+    [[nodiscard]] std::size_t bytes() const { return (texel_count + wide_count) * sizeof(float); }
     std::string warning;  ///< says that maps were made smaller; empty: they were not
 };
 

@@ -95,7 +95,7 @@ Result<ShadowViews> plan_light_shadows(std::vector<LightPlan>& lights, const Pre
     if (!out) return out;
     Settings of_soft = settings;
     of_soft.shadow_softness_deg = 0.0f;
-    of_soft.shadow_memory_limit -= std::min(of_soft.shadow_memory_limit, out->texel_count * sizeof(float));
+    of_soft.shadow_memory_limit -= std::min(of_soft.shadow_memory_limit, out->bytes());
     const ShadowSizes half{halved_shadow_size(sizes.most), 2.0 * sizes.texel_px};
     int n = settings.soft_shadow_maps;
     auto views = plan_points(soft, n, scene, seen, of_soft, half);

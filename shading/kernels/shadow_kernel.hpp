@@ -22,6 +22,7 @@ struct HiddenShares {
 struct MapPoint {
     F u, v, distance;
     I base;
+    I wide_base;  ///< the same in those of the widest filter
     M inside;
 };
 
@@ -56,12 +57,12 @@ HALFLIT_INLINE MapPoint cube_point(const shading::ShadowMapPlan& map, const Cube
     // Six faces of at most 2^22 texels: exact in float, and a multiplication of integers is slow on some sets.
     const I base = round_even(to_float(face) * F(static_cast<float>(map.size * map.size)));
     return {mad(along_u * inv, half, middle), mad(sel(at.negative, F(0.0f) - along_v, along_v) * inv, half, middle), distance, base,
-            distance > F(0.0f)};
+            I(0), distance > F(0.0f)};
 }
 
 /// A point in a map that is not a cube's. Where the filter would reach beyond the map, nothing casts a shadow.
 HALFLIT_INLINE MapPoint flat_point(const shading::ShadowMapPlan& map, V3 p) {
-    MapPoint at{row_product(map.rows[0], p), row_product(map.rows[1], p), row_product(map.rows[2], p), I(0), F(0.0f) <= F(0.0f)};
+    MapPoint at{row_product(map.rows[0], p), row_product(map.rows[1], p), row_product(map.rows[2], p), I(0), I(0), F(0.0f) <= F(0.0f)};
     if (map.kind == shading::ShadowMapPlan::Kind::perspective) {
         at.inside = at.distance > F(0.0f);
         const F inv = vdiv(F(1.0f), sel(at.inside, at.distance, F(1.0f)));
@@ -87,6 +88,7 @@ HALFLIT_INLINE MapPoint orthographic_point(const shading::ShadowMapPlan& map, V3
 
 /// A fragment's place in the first of a light's cascades that holds all that the filter reads. at: the place in the first map.
 HALFLIT_INLINE MapPoint in_cascades(const shading::ShadowMapPlan& map, V3 p, V3 normal, MapPoint at, F& texel) {
+    const int wide_texels = shading::wide_side(map.size) * shading::wide_side(map.size);
     for (int k = 1; k <= map.coarser && !all(at.inside); ++k) {
         const shading::ShadowMapPlan& next = (&map)[k];
         const MapPoint there = orthographic_point(next, p, normal);
@@ -94,7 +96,7 @@ HALFLIT_INLINE MapPoint in_cascades(const shading::ShadowMapPlan& map, V3 p, V3 
         texel = sel(at.inside, texel, F(next.texel_size));
         const M inside = at.inside | there.inside;
         at = {sel(at.inside, at.u, there.u), sel(at.inside, at.v, there.v), sel(at.inside, at.distance, there.distance),
-              sel(at.inside, at.base, I(k * map.size * map.size)), inside};
+              sel(at.inside, at.base, I(k * map.size * map.size)), sel(at.inside, at.wide_base, I(k * wide_texels)), inside};
     }
     return at;
 }
@@ -130,21 +132,58 @@ struct WideShares {
     F behind;  ///< mean over all texels of the distance from the blocker, 0 where there is none
 };
 
+/// Rows of four texels about a point, for every 2^k-th texel.
+struct SparseRows {
+    const shading::ShadowMapPlan& map;
+    int k;
+    I base;
+
+    HALFLIT_INLINE void read(F u0, F v0, int j, F (&distance)[4]) const {
+        const float step = static_cast<float>(1 << k);
+        const F none(0.0f), ends(static_cast<float>(map.size - 1));
+        const F row = clamp(mad(v0 + F(static_cast<float>(j) - 1.0f), F(step), F(0.5f * step)), none, ends);
+        const I first = round_to_int(row) * I(map.size) + base;
+        for (int i = 0; i < 4; ++i) {
+            const F column = clamp(mad(u0 + F(static_cast<float>(i) - 1.0f), F(step), F(0.5f * step)), none, ends);
+            distance[i] = gather(map.distance, first + round_to_int(column));
+        }
+    }
+};
+/// The same for the widest filter.
+struct WideRows {
+    const float* texels[kWidth];
+    int side;
+
+    HALFLIT_INLINE WideRows(const shading::ShadowMapPlan& map, const MapPoint& at) : side(shading::wide_side(map.size)) {
+        constexpr float kStep = 1.0f / static_cast<float>(1 << shading::kPenumbraLevels);
+        const F last(static_cast<float>(side - 4));
+        const F u0 = vfloor(at.u * F(kStep) - F(0.5f)), v0 = vfloor(at.v * F(kStep) - F(0.5f));
+        const F column = clamp(u0 + F(1.0f), F(0.0f), last), row = clamp(v0 + F(1.0f), F(0.0f), last);
+        alignas(64) std::int32_t first[kWidth];
+        store(first, round_to_int(mad(row, F(static_cast<float>(side)), column)) + at.wide_base);
+        for (int l = 0; l < kWidth; ++l) texels[l] = map.wide + first[l];
+    }
+    HALFLIT_INLINE void read(F, F, int j, F (&distance)[4]) const {
+        const float* row[kWidth];
+        for (int l = 0; l < kWidth; ++l) row[l] = texels[l] + j * side;
+        load4(row, distance[0], distance[1], distance[2], distance[3]);
+    }
+};
+
 /// left, fade: as in hidden_share().
-HALFLIT_INLINE WideShares wide_share(const shading::ShadowMapPlan& map, const MapPoint& at, F receiver, int k, ShadowFade fade, F left,
-                                     bool soft) {
-    const float step = static_cast<float>(1 << k), last = static_cast<float>(map.size - 1);
-    const F none(0.0f), one(1.0f), third(1.0f / 3.0f), ends(last);
+template <class Rows>
+HALFLIT_INLINE WideShares wide_share(const Rows& rows, const MapPoint& at, F receiver, int k, ShadowFade fade, F left, bool soft) {
+    const float step = static_cast<float>(1 << k);
+    const F none(0.0f), one(1.0f), third(1.0f / 3.0f);
     const F u = at.u * F(1.0f / step) - F(0.5f), v = at.v * F(1.0f / step) - F(0.5f), u0 = vfloor(u), v0 = vfloor(v);
     const F fu = u - u0, fv = v - v0;
     const F across[4] = {(one - fu) * third, third, third, fu * third}, along[4] = {(one - fv) * third, third, third, fv * third};
     WideShares sum{{none, none}, none};
     for (int j = 0; j < 4; ++j) {
-        const F row = clamp(mad(v0 + F(static_cast<float>(j) - 1.0f), F(step), F(0.5f * step)), none, ends);
-        const I first = round_to_int(row) * I(map.size) + at.base;
+        F distance[4];
+        rows.read(u0, v0, j, distance);
         for (int i = 0; i < 4; ++i) {
-            const F column = clamp(mad(u0 + F(static_cast<float>(i) - 1.0f), F(step), F(0.5f * step)), none, ends);
-            const F behind = receiver - gather(map.distance, first + round_to_int(column));
+            const F behind = receiver - distance[i];
             const M hides = behind > none;
             if (!any(hides)) continue;
             const F weight = sel(hides, across[i] * along[j], none);
@@ -164,10 +203,10 @@ HALFLIT_INLINE HiddenShares penumbra_share(const shading::ShadowMapPlan& map, co
     const F cosine = vabs((F(map.rows[2][0]) * normal.x + F(map.rows[2][1]) * normal.y) + F(map.rows[2][2]) * normal.z);
     const F sine = vsqrt(vmax(one - cosine * cosine, none));
     const F shift = texel * (F(shading::kPenumbraBias) * vmin(vdiv(sine, vmax(cosine, F(0.1f))), F(shading::kSteepestPenumbra)));
-    const auto wide = [&](int k) __attribute__((always_inline)) {
-        return wide_share(map, at, receiver - shift * F(static_cast<float>((1 << k) - 1)), k, fade, left, soft);
+    const auto wide = [&](const auto& rows, int k) __attribute__((always_inline)) {
+        return wide_share(rows, at, receiver - shift * F(static_cast<float>((1 << k) - 1)), k, fade, left, soft);
     };
-    const WideShares widest = wide(shading::kPenumbraLevels);
+    const WideShares widest = wide(WideRows(map, at), shading::kPenumbraLevels);
     const M found = at.inside & (widest.hidden.hard > none);
     if (!any(found)) return sharp;
     // In widths of the narrowest filter.
@@ -180,7 +219,7 @@ HALFLIT_INLINE HiddenShares penumbra_share(const shading::ShadowMapPlan& map, co
         const F weight = share - wider;
         share = wider;
         if (!any(weight > none)) continue;
-        const HiddenShares of_level = k == 0 ? sharp : k == shading::kPenumbraLevels ? widest.hidden : wide(k).hidden;
+        const HiddenShares of_level = k == 0 ? sharp : k == shading::kPenumbraLevels ? widest.hidden : wide(SparseRows{map, k, at.base}, k).hidden;
         sum.hard = sum.hard + weight * of_level.hard;
         sum.soft = sum.soft + weight * of_level.soft;
     }

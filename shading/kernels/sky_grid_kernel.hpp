@@ -33,6 +33,9 @@ HALFLIT_INLINE GridLight no_grid_light() {
     return {none, none, none, none, none, none, none, none, none};
 }
 
+/// Beyond so many, gathering is faster.
+inline constexpr int kMostCells = 4;
+
 /// `normal`: of the surface, unit.
 HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 position, V3 normal) {
     constexpr int kTerms = shading::kGridTerms;
@@ -56,9 +59,6 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
     const F row(static_cast<float>(grid.row)), layer(static_cast<float>(grid.layer));
     const I first = round_even(mad(z, layer, mad(y, row, x)) * F(static_cast<float>(kTerms)));
     const F height = ((normal.x * below_x + normal.y * below_y) + normal.z * below_z) - F(shading::kGridClearance);
-    // Mostly all lanes lie between the same eight points: then nothing is gathered.
-    const std::int32_t leading = first_lane(first);
-    const bool together = all(equal(first, I(leading)) | !inside);
     F weights[8], sum(0.0f);
     int steps[8], count = 0;
     for (int k = 0; k < 8; ++k) {
@@ -76,19 +76,28 @@ HALFLIT_INLINE GridLight grid_light(const shading::SkyGridPlan& grid, V3 positio
     }
     const F fade = vmax(border, none) * F(1.0f / shading::kGridFade);
     const F factor = sel(inside, vdiv(fade, vmax(sum, F(shading::kLeastGridWeight))), none);
+    for (int k = 0; k < count; ++k) weights[k] = weights[k] * factor;
+    // Lanes mostly lie between few points of the lattice: those of eight points at a time, to which other lanes add nothing.
     GridLight out = no_grid_light();
-    if (together) {
+    alignas(64) std::int32_t starts[kWidth];
+    store(starts, first);
+    std::uint32_t left = mask_bits(inside);
+    for (int cells = 0; left != 0 && cells < kMostCells; ++cells) {
+        const std::int32_t start = starts[__builtin_ctz(left)];
+        const M here = equal(first, I(start)) & inside;
+        left &= ~mask_bits(here);
         for (int k = 0; k < count; ++k) {
-            const float* const point = grid.hidden + leading + steps[k];
+            const float* const point = grid.hidden + start + steps[k];
             out.add(
-                weights[k] * factor, [point](int term) __attribute__((always_inline)) { return F(point[term]); });
+                sel(here, weights[k], none), [point](int term) __attribute__((always_inline)) { return F(point[term]); });
         }
-    } else {
-        for (int k = 0; k < count; ++k) {
-            const I point = first + I(steps[k]);
-            out.add(
-                weights[k] * factor, [&](int term) __attribute__((always_inline)) { return gather(grid.hidden + term, point); });
-        }
+    }
+    if (left == 0) return out;
+    out = no_grid_light();
+    for (int k = 0; k < count; ++k) {
+        const I point = first + I(steps[k]);
+        out.add(
+            weights[k], [&](int term) __attribute__((always_inline)) { return gather(grid.hidden + term, point); });
     }
     return out;
 }

@@ -32,6 +32,13 @@ inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
 /// A filter as wide as a penumbra reads every 2^k-th texel, with k from 0 to this, and is three of these wide: 3 to 24 texels. The widest
 /// one looks for blockers.
 inline constexpr int kPenumbraLevels = 3;
+/// The widest filter's texels once more, next to each other: rows of wide_side() of a map's size. Number i of a row, or of rows, is texel
+/// wide_texel(i).
+constexpr int wide_side(int size) { return (size >> kPenumbraLevels) + 5; }
+constexpr int wide_texel(int i, int size) {
+    const int at = ((i - 2) << kPenumbraLevels) + (1 << kPenumbraLevels) / 2;
+    return at < 0 ? 0 : at < size ? at : size - 1;
+}
 /// Shift of a receiver towards the light for such a filter, in texels for each of those that it leaves out, times the tangent of the angle
 /// between the normal and the map's axis, which is held below kSteepestPenumbra.
 inline constexpr float kPenumbraBias = 2.0f, kSteepestPenumbra = 2.0f;
@@ -44,6 +51,7 @@ struct ShadowMapPlan {
     enum class Kind : std::uint8_t { orthographic, perspective, cube };
 
     const float* distance = nullptr;  ///< world units along the map's axis, kNoBlocker where nothing is; a cube has six maps in a row
+    const float* wide = nullptr;      ///< those of the widest filter, of maps with a penumbra
     std::int32_t size = 0;            ///< texels on a side
     Kind kind = Kind::orthographic;
     /// Rows applied to (x, y, z, 1) in world space. Orthographic: u, v in texels, and distance. Perspective: u and v times
@@ -53,7 +61,7 @@ struct ShadowMapPlan {
     float texel_size = 0;               ///< world units; perspective and cube: at distance 1
     float offset = kLeastShadowOffset;  ///< distance of receivers from their surface, texels: shadow_offset()
     /// Number of coarser maps of the same light that follow in the list, of the same size and kind, orthographic; their texels follow this
-    /// map's. A receiver is looked up in the first one that holds all that the filter reads.
+    /// map's, and so do those of the widest filter. A receiver is looked up in the first one that holds all that the filter reads.
     std::int32_t coarser = 0;
     float penumbra = 0;     ///< width of a penumbra over the distance from the blocker, orthographic; 0: all edges are sharp
     std::int32_t next = 0;  ///< number of maps from here to that of the light's next point; 0: there is none

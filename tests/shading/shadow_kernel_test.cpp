@@ -24,6 +24,7 @@ struct Setup {
     Material material;
     Light light;
     ShadingPlan plan;
+    std::vector<float> wide;
 
     Setup(ShadowMapPlan::Kind kind, const Lobe& lobe, ShadowMode mode, bool specular = false) {
         material.metallic = 0;
@@ -79,7 +80,23 @@ struct Setup {
     }
     void fill(float distance) { std::fill(texels.begin(), texels.end(), distance); }
 
-    void shade(Isa isa, FragmentBlock& block) const {
+    /// The texels of the widest filter.
+    void gather_wide() {
+        const int side = wide_side(kSize);
+        const std::size_t of_map = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+        wide.resize(plan.shadow_maps.size() * of_map);
+        for (std::size_t k = 0; k < plan.shadow_maps.size(); ++k) {
+            if (plan.shadow_maps[k].penumbra == 0) continue;
+            for (int j = 0; j < side; ++j)
+                for (int i = 0; i < side; ++i)
+                    wide[k * of_map + static_cast<std::size_t>(j * side + i)] =
+                        plan.shadow_maps[k].distance[wide_texel(j, kSize) * kSize + wide_texel(i, kSize)];
+            plan.shadow_maps[k].wide = wide.data() + k * of_map;
+        }
+    }
+
+    void shade(Isa isa, FragmentBlock& block) {
+        gather_wide();
         shade_kernels(isa).shade(plan, plan.materials[0], all_lights(plan), block, kBlockSize);
     }
 };

@@ -32,5 +32,9 @@ namespace halflit::cli {
 
 /// In the order of the help text.
 [[nodiscard]] std::vector<Command> all_commands();
+[[nodiscard]] bool is_command(std::string_view name);
+/// The command of a line that begins with its name; all of them if it begins with another word. The flags of one take a quarter of a
+/// millisecond.
+[[nodiscard]] std::vector<Command> commands_for(std::string_view first_word);
 
 }  // namespace halflit::cli

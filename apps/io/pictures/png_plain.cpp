@@ -5,7 +5,9 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <memory>
 
 namespace halflit::io::detail {
@@ -23,21 +25,30 @@ std::uint32_t big_endian(const std::byte* at) {
     return value;
 }
 
-/// The contents of all IDAT chunks; nothing if a checksum is wrong, or if something else than IEND follows.
+/// Chunks that say nothing of the pixels and may follow them: tEXt, zTXt, iTXt, tIME, eXIf.
+bool may_follow_pixels(std::uint32_t type) {
+    constexpr std::uint32_t kTypes[] = {0x74455874, 0x7A545874, 0x69545874, 0x74494D45, 0x65584966};
+    return std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
+}
+
+/// The contents of all IDAT chunks; nothing if a checksum is wrong, or if what follows says anything of pixels.
 std::vector<std::byte> compressed_data(std::span<const std::byte> file) {
     std::vector<std::byte> data;
+    data.reserve(file.size());
+    bool ended = false;
     for (std::size_t at = kSignature; file.size() - at >= kChunkFrame;) {
         const std::uint32_t size = big_endian(&file[at]), type = big_endian(&file[at + 4]);
         if (size > file.size() - at - kChunkFrame) return {};
         const std::byte* const body = &file[at] + 8;
         const bool is_sound = libdeflate_crc32(0, body - 4, size + std::size_t{4}) == big_endian(body + size);
         if (type == kIdat) {
-            if (!is_sound || size == 0) return {};
+            if (!is_sound || size == 0 || ended) return {};
             data.insert(data.end(), body, body + size);
         } else if (type == kIend) {
             return is_sound && size == 0 ? data : std::vector<std::byte>();
         } else if (!data.empty()) {
-            return {};
+            if (!is_sound || !may_follow_pixels(type)) return {};
+            ended = true;
         }
         at += kChunkFrame + size;
     }
