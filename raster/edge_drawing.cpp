@@ -34,8 +34,8 @@ Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera&
     constexpr std::uint64_t kMostTriangles = 1u << 30;  // numbers are uint32
     if (scene.triangle_count() > kMostTriangles) return fail(ErrorCode::limit, "edges: expected at most 2^30 triangles over all instances");
     const auto hold = [&](std::uint64_t bytes) { drawing.memory.hold(executor.stop(), static_cast<std::size_t>(bytes + pixels * 8)); };
-    // In the studio, nine tenths of such a surface's pixels are above 36 codes, and nine tenths below 121. Black lines are lost on more of
-    // darker ones, from which light lines stand out by 100 codes.
+    // Mean luminance below which a surface has light lines. In the studio, of a surface at this limit nine tenths of the pixels are above
+    // 36 codes, where black lines show, and nine tenths below 121, where light lines do.
     constexpr double kDark = 0.2;
     const bool contrast = settings.edge_contrast && settings.edge_color_linear == Vec3f{};
     if (!(drawing.of == scene.revision()) || drawing.angle_deg != settings.edge_angle_deg || drawing.contrast != contrast) {

@@ -216,7 +216,7 @@ EyeDomePlan plan_eye_dome(const PreparedData& scene, const Camera& camera, const
     EyeDomePlan plan;
     if (settings.edl == EyeDomeLighting::off || settings.edl_strength == 0.0f) return plan;
     if (settings.edl == EyeDomeLighting::automatic && !has_cloud_without_normals(scene)) return plan;
-    // As far as a point is wide: nearer, its own level circle is read, and the steps from one to the next show instead of the surface.
+    // As far as a point is wide: nearer, depths are those of its own disc, and the steps from disc to disc show instead of the surface.
     constexpr int kMostRadius = 32, kRadiiOfHeight = 256, kUnits = 256;  // units of a pixel
     const int of_points = view.point_sizes.empty() ? view.point_size : view.point_sizes.usual;
     const int radius = has_cloud_without_normals(scene) ? (of_points + kUnits / 2) / kUnits : height / kRadiiOfHeight;

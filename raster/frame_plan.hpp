@@ -26,7 +26,7 @@ namespace halflit::raster {
 
 /// Eye-dome lighting of a frame.
 struct EyeDomePlan {
-    float strength = 0.0f;  ///< of the sum of rises; 0: there is none
+    float strength = 0.0f;  ///< factor on the sum of rises in eight directions; 0: there is none
     bool all = false;       ///< surfaces of triangles are shaded too
     int radius_px = 0;      ///< of the circle on which depths are read
     /// A difference of depths is a rise over a run of one pixel when it is multiplied by this and, in perspective, divided by the pixel's

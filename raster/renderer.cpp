@@ -214,6 +214,9 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 void Renderer::forget_frames() {
     impl_->plan_key.reset();
     impl_->plan_memory.light_distances.clear();
+    impl_->plan_memory.covers.revision.reset();
+    impl_->plan_memory.sky_grid.revision.reset();
+    impl_->plan_memory.contact_map.revision.reset();
     impl_->shadow_maps.forget();
     impl_->geometry.forget();
     impl_->records.changed();

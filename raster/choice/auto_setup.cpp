@@ -210,7 +210,7 @@ const Camera* choose_camera(const Scene& scene, const Bounds& bounds) {
 
 namespace {
 
-/// prepared: the scene as it was prepared, which keeps what is framed; null: it is not.
+/// prepared: keeps the framed part; null: the scene is not prepared.
 AutoSetup setup_of(const Scene& scene, const raster::PreparedData* prepared, const Bounds& bounds, int width, int height,
                    const AutoOptions& options) {
     AutoSetup setup;

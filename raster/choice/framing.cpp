@@ -127,7 +127,8 @@ public:
             for (std::size_t b = 0; b < vertices.blocks.size(); ++b) {
                 check();
                 if (has_box(fit, vertices.blocks[b], instance.world_from_object, box_.center)) continue;
-                const std::size_t first = b * FramedVertices::kBlock, end = std::min(first + FramedVertices::kBlock, vertices.vertices.size());
+                const std::size_t first = b * FramedVertices::kBlock,
+                                  end = std::min(first + FramedVertices::kBlock, vertices.vertices.size());
                 for (std::size_t k = first; k < end; ++k) {
                     check();
                     const Vec3f p = transform_point(instance.world_from_object, mesh.positions[vertices.vertices[k]]);

@@ -12,9 +12,9 @@ constexpr int kSide = kCells + 2;      ///< with a border that nothing covers
 constexpr double kLeastDepth = 0.02;   ///< of a hollow, over the longest side of the box
 constexpr double kUncovered = -1e300;  ///< height where nothing is
 constexpr std::size_t kMostTriangles = 1 << 16;
-constexpr std::uint64_t kMostLooks = std::uint64_t{1} << 24;  ///< at cells, after which triangles count by their middle: .2 s
+constexpr std::uint64_t kMostLooks = std::uint64_t{1} << 24;  ///< most examined cells (.2 s), beyond which a triangle counts by its middle
 
-int cell(double at) { return std::clamp(static_cast<int>(at), 0, kCells - 1); }
+int cell(double at) { return static_cast<int>(std::clamp(at, 0.0, kCells - 1.0)); }
 
 }  // namespace
 
@@ -41,8 +41,7 @@ void Hollows::draw(const std::array<Vec3d, 3>& at) {
     const double twice_area = (p[1].x - p[0].x) * (p[2].z - p[0].z) - (p[2].x - p[0].x) * (p[1].z - p[0].z);
     bool any = false;
     if (twice_area != 0.0 && looks_ < kMostLooks) {
-        looks_ +=
-            static_cast<std::uint64_t>(cell(high_z) - cell(low_z) + 1) * static_cast<std::uint64_t>(cell(high_x) - cell(low_x) + 1);
+        looks_ += static_cast<std::uint64_t>(cell(high_z) - cell(low_z) + 1) * static_cast<std::uint64_t>(cell(high_x) - cell(low_x) + 1);
         for (int z = cell(low_z); z <= cell(high_z); ++z)
             for (int x = cell(low_x); x <= cell(high_x); ++x) {
                 const double at_x = x + 0.5, at_z = z + 0.5;

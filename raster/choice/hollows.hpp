@@ -21,6 +21,7 @@ public:
     /// Takes a triangle as each_triangle() gives it. Of many, some stand for all.
     void add(const std::array<Vec3d, 3>& at, bool both_sides) {
         const double normal_y = (at[1].z - at[0].z) * (at[2].x - at[0].x) - (at[1].x - at[0].x) * (at[2].z - at[0].z);
+        if (!(magnitude(normal_y) < 1e300)) return;
         if (both_sides ? !(magnitude(normal_y) > 0.0) : !(normal_y > 0.0)) return;
         if (magnitude(normal_y) < large_ && small_++ % stride_ != 0) return;
         draw(at);
@@ -34,8 +35,8 @@ private:
 
     double low_x_ = 0, low_z_ = 0, per_length_ = 0, least_depth_ = 0;
     double large_ = 0;                    ///< twice the area of a triangle that covers half a cell
-    std::size_t stride_ = 1, small_ = 0;  ///< one in so many triangles that are not large counts; their number
-    std::uint64_t looks_ = 0;             ///< at cells
+    std::size_t stride_ = 1, small_ = 0;  ///< one in so many triangles that are not large counts; number of those so far
+    std::uint64_t looks_ = 0;             ///< examined cells
     std::vector<double> heights_;         ///< of cells; empty: the box is of no use
 };
 

@@ -42,9 +42,10 @@ public:
         const bool mirrored = determinant3(world_from_object) < 0.0;
         for (std::size_t i = 0; i + corners <= mesh.indices.size(); i += corners) {
             check_();
+            const std::uint32_t* const index = &mesh.indices[i];
+            if (std::any_of(index, index + corners, [&](std::uint32_t v) { return v >= mesh.positions.size(); })) continue;
             Vec3d at[3];
-            for (std::size_t c = 0; c < corners; ++c)
-                at[c] = to_double(transform_point(world_from_object, mesh.positions[mesh.indices[i + c]]));
+            for (std::size_t c = 0; c < corners; ++c) at[c] = to_double(transform_point(world_from_object, mesh.positions[index[c]]));
             if (!is_inside({at, corners})) continue;
             if (corners < 3) return true;
             const Vec3d normal = cross(at[1] - at[0], at[2] - at[0]);

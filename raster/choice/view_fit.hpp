@@ -15,7 +15,7 @@ struct OrbitAxes {
     Vec3d right, up, back;  // camera x, y, z in world space
 };
 
-/// OrbitAxes of a viewer on a sphere around the origin. The poles are no special case; beyond them the view is upside down.
+/// Axes of a viewer on a sphere around the origin. The poles are no special case; beyond them the view is upside down.
 inline OrbitAxes orbit_axes(double azimuth_deg, double elevation_deg) {
     const SinCos az = sin_cos(finite(azimuth_deg) ? azimuth_deg * (kPi / 180.0) : 0.0);
     const SinCos el = sin_cos(finite(elevation_deg) ? elevation_deg * (kPi / 180.0) : 0.0);

@@ -180,7 +180,8 @@ private:
         // From the eye on: layers, the last one first, and what the surface hides.
         std::sort(plane.begin(), plane.end(), [&](const SurfaceOnRay& a, const SurfaceOnRay& b) {
             const auto order = [&](const SurfaceOnRay& hit) {
-                return std::pair(hit.layer, hit.layer ? hit.instance : std::size_t{groups.rank(data().material_of(hit.instance))});
+                const std::size_t rank = hit.layer ? hit.instance : std::size_t{groups.rank(data().material_of(hit.instance))};
+                return std::tuple(hit.layer, rank, hit.instance, hit.triangle);
             };
             return order(a) > order(b);
         });

@@ -43,19 +43,14 @@ inline void sweep_covers(const CoverSweep& s) {
     }
 }
 
-inline void sum_grid_terms(const GridTermSums& s) {
-    constexpr int kTerms = shading::kGridTerms;
-    alignas(64) float sums[kTerms][kWidth];
-    for (std::int64_t p = 0; p < s.points; p += kWidth) {
-        F terms[kTerms];
-        for (F& term : terms) term = F(0.0f);
-        for (int d = 0; d < s.directions; ++d) {
-            const F share = load(s.shares + d * s.points + p);
-            for (int k = 0; k < kTerms; ++k) terms[k] = mad(share, F(s.factors[d * kTerms + k]), terms[k]);
+inline void add_grid_terms(const float* share, const float (&factors)[shading::kGridTerms], std::int64_t points, float* sums) {
+    for (std::int64_t p = 0; p < points; p += kWidth) {
+        const F hidden = load(share + p);
+        float* at = sums + p;
+        for (const float factor : factors) {
+            store(at, mad(hidden, F(factor), load(at)));
+            at += points;
         }
-        for (int k = 0; k < kTerms; ++k) store(sums[k], terms[k]);
-        for (int l = 0; l < kWidth; ++l)
-            for (int k = 0; k < kTerms; ++k) s.terms[(p + l) * kTerms + k] = sums[k][l];
     }
 }
 

@@ -8,6 +8,7 @@
 #include "halflit/isa.hpp"
 #include "sh/config.hpp"
 #include "shading/fragment_block.hpp"
+#include "shading/plan/sky_grid_plan.hpp"
 
 #include <cstdint>
 
@@ -233,15 +234,6 @@ struct CoverSweep {
     float* hidden;              ///< out: at each point
 };
 
-/// Sums over directions of shares times factors, for `points` points, a multiple of kCoverPitch.
-struct GridTermSums {
-    const float* shares;   ///< of each direction, those of all points
-    const float* factors;  ///< kGridTerms of each direction
-    int directions;
-    std::int64_t points;
-    float* terms;  ///< out: kGridTerms of each point
-};
-
 /// A layer of covers as seen from the ground, whose cells are as wide as the lattice's spacing.
 struct GroundCover {
     const float* parts[kCoverParts];  ///< of the layer's first row
@@ -256,8 +248,8 @@ struct GroundCover {
     float* sums;         ///< kGroundCells rows; what is hidden is added
 };
 
-/// The contact shadow at the pixels of a row of the picture. Its cell at a pixel whose middle is at x: the quotient of (x * [0] + [1]) + [2]
-/// of `cell_x` or `cell_z`, and of `weight`, whose [1] are those of the row.
+/// The contact shadow at the pixels of a row of the picture. Its cell at a pixel whose middle is at x: the quotient of (x * [0] + [1]) +
+/// [2] of `cell_x` or `cell_z`, and of `weight`, whose [1] are those of the row.
 struct GroundShadow {
     const float* hidden;  ///< share of each cell, kGroundCells rows
     double weight[3], cell_x[3], cell_z[3];
@@ -291,7 +283,8 @@ struct RasterKernels {
     /// Distances along a shadow map's axis for a row of depths.
     void (*distances)(const DepthRange&, const float* depth, int count, float* distance);
     void (*sweep_covers)(const CoverSweep&);
-    void (*sum_grid_terms)(const GridTermSums&);
+    /// Adds a direction's shares times factors to kGridTerms lists of sums, of `points` points each, a multiple of kCoverPitch.
+    void (*add_grid_terms)(const float* share, const float (&factors)[shading::kGridTerms], std::int64_t points, float* sums);
     void (*cover_ground)(const GroundCover&);
     /// Opacities of the contact shadow at `count` pixels from x_px on, at most kMaxTileSize.
     void (*shadow_row)(const GroundShadow&, int x_px, int count, float* opacity);

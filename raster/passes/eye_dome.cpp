@@ -114,7 +114,7 @@ void EyeDome::shade_block(const EyeDomePlan& dome, std::span<const Neighbour> ne
         }
         if (output.linear) {
             float* const light = output.linear.at(x_px + i, y_px);
-            for (int c = 0; c < 3; ++c) light[c] *= mean * mean;
+            for (int c = 0; c < 3; ++c) light[c] *= mean * mean;  // codes are about the square root of light
         }
     }
 }

@@ -120,9 +120,7 @@ private:
     /// Opacities of the contact shadow in a row of the tile that has some.
     [[nodiscard]] const float* shadow_row(int row) const;
     /// Pixels of a row of the tile that are the caller's.
-    [[nodiscard]] std::uint64_t written_pixels() const {
-        return (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x);
-    }
+    [[nodiscard]] std::uint64_t written_pixels() const { return (~std::uint64_t{0} >> (64 - written_.width)) << (written_.x - rect_.x); }
     void fill_samples();                                                        ///< sets every sample to the background of its pixel
     void write(const FragmentList& list, const shading::FragmentBlock& block);  ///< to the caller's memory or to samples
     void write_samples(const FragmentList& list, const shading::FragmentBlock& block);

@@ -141,7 +141,7 @@ void draw_visibility(const TilePass& pass, int tile, TileScratch& scratch, TileC
 /// The same of opaque triangles alone, which needs no vertex records.
 void draw_opaque(const ViewGeometry& geometry, const RasterKernels& kernels, StopSignal& stop, int tile, TileScratch& scratch);
 
-/// After it, where there are surfaces in one plane: gives their samples to the material of the highest rank.
+/// Gives the samples of coplanar surfaces to the material of the highest rank. Runs after draw_visibility().
 void draw_coplanar(const TilePass& pass, int tile, TileScratch& scratch, TileCounts& counts);
 /// RasterKernels::cover_layer for a triangle of a layer. What is in one plane with the surface that a sample shows lies over it.
 CoverBox cover_layer(const TilePass& pass, const TileRect& rect, const TileRect& part, std::size_t chunk, std::uint32_t record,

@@ -1,8 +1,8 @@
 // Coplanar surfaces: triangles of different materials over each other in one plane, as decals lie on a wall and a logo on a body.
 //
 // Depth cannot order them, because their depths differ by rounding alone. They form groups here, once for a scene. Of a group that a sample
-// shows, the material that the scene uses last is drawn, and layers of the group over it: the order of three.js, and of all renderers whose
-// depth test passes equal depths. Which surface is in front of a group, or behind it, is still decided by depth.
+// shows, the material whose first use comes last is drawn, and layers of the group over it: the order of three.js, and of all renderers
+// whose depth test passes equal depths. Which surface is in front of a group, or behind it, is still decided by depth.
 //
 // Triangles lie in one plane if they do so within the rounding of their coordinates in float32: the scale of the scene does not matter, and
 // a decal that is held off its wall by any visible distance is no member. They lie over each other if their common part is wider than that.
@@ -28,7 +28,8 @@ struct CoplanarPair {
 };
 
 /// All pairs with an instance that is marked in `among`, in order; among: one entry for each instance, or none for all. Nothing is searched
-/// where instances of different materials do not meet. Beyond some millions of triangles there, or of pairs, the rest is left out.
+/// where instances of different materials do not meet, or where more than 2^21 triangles do; beyond 2^20 pairs the rest is left out. Where
+/// a limit is met, a search among some may find others than one among all.
 [[nodiscard]] std::vector<CoplanarPair> find_coplanar_pairs(const PreparedData& scene, std::span<const std::uint8_t> among = {});
 
 /// The connected components of the pairs.

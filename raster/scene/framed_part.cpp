@@ -3,6 +3,7 @@
 #include "raster/detail/view_math.hpp"
 #include "raster/scene/closest_box.hpp"
 #include "raster/scene/instance_material.hpp"
+#include "raster/scene/mesh_triangles.hpp"
 #include "raster/scene/placed_box.hpp"
 #include "raster/scene/seen_vertices.hpp"
 #include "raster/scene/shell.hpp"
@@ -33,20 +34,6 @@ constexpr double kWhole = 1e12;             ///< weight of the whole surface
 WideBox box_at(Vec3f p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
 WideBox wide(const Bounds& b) { return {{b.min.x, b.min.y, b.min.z}, {b.max.x, b.max.y, b.max.z}}; }
 
-/// Calls visit(corners) for every stride-th triangle that is finite.
-template <class Visit>
-void each_triangle(const Mesh& mesh, std::size_t stride, const Visit& visit) {
-    TimeCheck check;
-    for (std::size_t i = 0; i + 3 <= mesh.indices.size(); i += 3 * stride) {
-        check();
-        const std::uint32_t* const index = &mesh.indices[i];
-        const std::size_t count = mesh.positions.size();
-        if (index[0] >= count || index[1] >= count || index[2] >= count) continue;  // the scene is not checked yet
-        const Vec3f corners[3] = {mesh.positions[index[0]], mesh.positions[index[1]], mesh.positions[index[2]]};
-        if (finite(corners[0]) && finite(corners[1]) && finite(corners[2])) visit(corners);
-    }
-}
-
 std::size_t sampling_stride(const Mesh& mesh) { return triangles_of(mesh) / kMostSamples + 1; }
 
 Vec3d area_vector(const Vec3f (&at)[3]) { return cross(to_double(at[1]) - to_double(at[0]), to_double(at[2]) - to_double(at[0])) * 0.5; }
@@ -55,8 +42,7 @@ Vec3d area_vector(const Vec3f (&at)[3]) { return cross(to_double(at[1]) - to_dou
 Vec3d covered_planes(const Mesh& mesh) {
     const std::size_t stride = sampling_stride(mesh);
     Vec3d sum{};
-    if (mesh.topology == Topology::triangles)
-        each_triangle(mesh, stride, [&](const Vec3f(&at)[3]) { sum = sum + absolute(area_vector(at)); });
+    each_triangle(mesh, stride, [&](const Vec3f(&at)[3]) { sum = sum + absolute(area_vector(at)); });
     return sum * static_cast<double>(stride);
 }
 
@@ -190,8 +176,11 @@ WideBox box_of(const std::vector<Placed>& placed) {
 /// Removes what is_out(one) is true of.
 template <class Test>
 void leave_out(std::vector<Placed>& placed, FramedPart& part, LeftOutFor reason, const Test& is_out) {
-    for (const Placed& one : placed)
-        if (is_out(one)) part.left_out.push_back({one.instance, reason});
+    for (const Placed& one : placed) {
+        if (!is_out(one)) continue;
+        std::erase_if(part.left_out, [&](const LeftOut& other) { return other.instance == one.instance; });  // a part of it
+        part.left_out.push_back({one.instance, reason});
+    }
     std::erase_if(placed, is_out);
 }
 
@@ -362,23 +351,6 @@ Bounds framed_bounds(const Scene& scene) {
     const FpEnvironment environment_of_host;
     const FramedPart part = framed_part(scene);
     return part.whole ? scene_bounds(scene) : part.bounds;
-}
-
-Bounds main_bounds(const Scene& scene, const Bounds& bounds) {
-    const FpEnvironment environment_of_host;
-    const FramedPart part = framed_part(scene);
-    const auto is_main = [](const LeftOut& one) { return one.reason == LeftOutFor::ground || one.reason == LeftOutFor::backdrop; };
-    if (part.whole || std::all_of(part.left_out.begin(), part.left_out.end(), is_main)) return bounds;
-    Bounds around = part.bounds;
-    for (const LeftOut& one : part.left_out) {
-        if (!is_main(one)) continue;
-        const Instance& instance = scene.instances[static_cast<std::size_t>(one.instance)];
-        const Bounds& box = part.meshes[static_cast<std::size_t>(instance.mesh)].bounds;
-        for (int k = 0; k < 8; ++k)
-            around.add(transform_point(instance.world_from_object,
-                                       {(k & 1 ? box.max : box.min).x, (k & 2 ? box.max : box.min).y, (k & 4 ? box.max : box.min).z}));
-    }
-    return around;
 }
 
 }  // namespace halflit::raster

@@ -37,7 +37,12 @@ struct FramedVertices {
     void measure(const Mesh& mesh);
 };
 
-enum class LeftOutFor : std::uint8_t { far, ground, shell, backdrop };
+enum class LeftOutFor : std::uint8_t {
+    far,       ///< a little, far away from all others
+    ground,    ///< much larger than all that stands on it
+    shell,     ///< around all else
+    backdrop,  ///< marked as one
+};
 /// An instance that is left out, or a part of it.
 struct LeftOut {
     int instance;
@@ -50,14 +55,12 @@ struct FramedPart {
     std::vector<int> instances;          ///< instances that are framed, in order
     bool whole = true;                   ///< nothing was left out
     Bounds bounds;                       ///< world space, of the part; unset if whole
-    std::vector<LeftOut> left_out;       ///< what could be seen, in order
+    std::vector<LeftOut> left_out;       ///< what could be seen, in the order in which it was left out
 };
 
 /// Instances whose mesh is out of range, and those that views do not look at, belong to no part.
 [[nodiscard]] FramedPart framed_part(const Scene& scene);
 /// World-space box of the part; scene_bounds() of a scene that is framed as a whole.
 [[nodiscard]] Bounds framed_bounds(const Scene& scene);
-/// Without what is far away and shells alone: around all that stands together, its grounds too. bounds: scene_bounds(scene).
-[[nodiscard]] Bounds main_bounds(const Scene& scene, const Bounds& bounds);
 
 }  // namespace halflit::raster

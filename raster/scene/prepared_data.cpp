@@ -110,11 +110,11 @@ Result<void> PreparedData::check_materials() const {
 }
 
 bool PreparedData::note_coverage() {
-    std::vector<std::pair<AlphaMode, bool>> coverage;
+    decltype(coverage_) coverage;
     bool masks = false;  // they cover what their textures say, which are not compared
     for (std::size_t i = 0; i < material_count(); ++i) {
         const Material& material = this->material(i);
-        coverage.emplace_back(material.is_layer() ? AlphaMode::blend : material.alpha_mode, material.double_sided);
+        coverage.emplace_back(material.is_layer() ? AlphaMode::blend : material.alpha_mode, material.double_sided, material.shadow_catcher);
         masks |= material.alpha_mode == AlphaMode::mask;
     }
     const bool same = coverage == coverage_ && !masks;
@@ -191,6 +191,7 @@ void PreparedData::measure_framed() {
 }
 
 const FramedPart& PreparedData::framed_part() const {
+    const FpEnvironment environment_of_host;
     const std::lock_guard<std::mutex> lock(part_->finding);
     if (part_->part == nullptr) part_->part = std::make_unique<const FramedPart>(raster::framed_part(*scene_));
     return *part_->part;

@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -127,7 +128,8 @@ private:
     std::vector<std::uint32_t> material_of_instance_;       ///< empty: no instance has a colour
     std::vector<std::pair<std::size_t, Vec4f>> look_keys_;  ///< material and colour of each look
     std::size_t scene_materials_ = 0;                       ///< their number when the scene was prepared
-    std::vector<std::pair<AlphaMode, bool>> coverage_;      ///< of each material: alpha mode, and whether both sides are drawn
+    /// Of each material: alpha mode, whether both sides are drawn, and whether it is a shadow catcher.
+    std::vector<std::tuple<AlphaMode, bool, bool>> coverage_;
     Material no_material_;
 };
 

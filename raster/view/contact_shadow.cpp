@@ -121,6 +121,7 @@ ContactMap map_of(const CoverGrid& grid, const RasterKernels& kernels) {
         for (int x = 0; x < kSide; ++x, ++out) {
             const double across = beside_foot(x, 0), along = beside_foot(z, 1), distance = std::sqrt(across * across + along * along);
             *out = static_cast<float>(double{*out} * (stands * smoothstep(1.0 - distance / reach) / kDirections));
+            if (x == 0 || z == 0 || x == kSide - 1 || z == kSide - 1) *out = 0.0f;
             if (*out == 0.0f) continue;
             map.low[0] = std::min(map.low[0], x - 1), map.high[0] = std::max(map.high[0], x + 1);
             map.low[1] = std::min(map.low[1], z - 1), map.high[1] = std::max(map.high[1], z + 1);

@@ -130,7 +130,8 @@ private:
     void add_foot(const Triangle& t) {
         const Vec3f corners[3] = {t.a, t.b, t.c};
         const auto add = [&](float x, float z) {
-            if (!(std::abs(x) < 1e9f && std::abs(z) < 1e9f)) return;
+            // Beyond the lattice lies what views leave out.
+            if (!(x >= 0.0f && z >= 0.0f && x < static_cast<float>(size_[0]) && z < static_cast<float>(size_[2]))) return;
             foot.low[0] = std::min(foot.low[0], x), foot.high[0] = std::max(foot.high[0], x);
             foot.low[1] = std::min(foot.low[1], z), foot.high[1] = std::max(foot.high[1], z);
         };

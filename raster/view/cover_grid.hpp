@@ -5,7 +5,7 @@
 // weights. So what is hidden is a continuous function of where things lie. A piece of a single-sided triangle counts half a spacing behind
 // its front: that front is not hidden by itself.
 //
-// It depends on the geometry and on what is opaque alone, so pictures of a scene that stands still share it.
+// It depends on the geometry, and on the opacity and the sides of materials, so pictures of a scene that stands still share it.
 #pragma once
 
 #include "raster/kernels/raster_kernels.hpp"

@@ -157,7 +157,9 @@ int side_for(const Choice& choice, const LightPlan& light, const Bounds& bounds,
 
 int size_of(const Choice& choice) { return choice.kind == ShadowMapPlan::Kind::cube ? choice.side / 2 : choice.side; }
 
-std::size_t wide_texels(int size) { return static_cast<std::size_t>(shading::wide_side(size)) * static_cast<std::size_t>(shading::wide_side(size)); }
+std::size_t wide_texels(int size) {
+    return static_cast<std::size_t>(shading::wide_side(size)) * static_cast<std::size_t>(shading::wide_side(size));
+}
 
 /// Number of texels of all maps.
 std::size_t texel_count(std::span<const Choice> choices, bool penumbras) {

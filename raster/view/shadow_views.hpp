@@ -24,7 +24,7 @@ struct ShadowView {
     std::size_t first_texel = 0;  ///< index of its first texel in those of all maps
     std::size_t first_wide = 0;   ///< the same of the widest filter's (ShadowMapPlan::wide), if there is a penumbra
     bool penumbra = false;
-    bool sees_casters = true;     ///< false: nothing that casts a shadow is in view, or nothing that one falls on, and nothing is drawn
+    bool sees_casters = true;  ///< false: nothing that casts a shadow is in view, or nothing that one falls on, and nothing is drawn
     friend bool operator==(const ShadowView&, const ShadowView&) = default;
 };
 

@@ -4,6 +4,7 @@
 #include "shading/sky_lights.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace halflit::raster {
 namespace {
@@ -28,13 +29,14 @@ CoverSweep sweep_of(const LatticeCovers& covers, const CoverLayout& layout, Vec3
     return sweep;
 }
 
-std::vector<float> hidden_shares(const CoverGrid& grid, const RasterKernels& kernels) {
+/// Terms of the light that is hidden at each point. lights: of each direction.
+std::vector<float> hidden_terms(const CoverGrid& grid, std::span<const float> lights, const RasterKernels& kernels) {
     if (grid.empty()) return {};
     const CoverLayout &by_z = grid.along_x.layout, &by_x = grid.along_y.layout;
     const CoverLayout by_y{by_z.layers, by_z.rows, by_z.layer_step, by_z.row_step};
     const std::size_t count = grid.along_x.parts[0].size();
-    std::vector<float> shares(count * shading::kGridDirections), turned(grid.along_y.parts[0].size()), work;
-    float* out = shares.data();
+    std::vector<float> shares(count), turned(grid.along_y.parts[0].size()), work, sums(count * shading::kGridTerms);
+    const float* light = lights.data();
     for (const Vec3d& d : shading::sky_directions(shading::kGridDirections)) {
         const Vec3d size = absolute(d);
         const double most = std::max({size.x, size.y, size.z});
@@ -44,31 +46,23 @@ std::vector<float> hidden_shares(const CoverGrid& grid, const RasterKernels& ker
         sweep.along = static_cast<float>(is_x ? towards.y : towards.x);
         sweep.across = static_cast<float>(is_x || is_y ? towards.z : towards.y);
         sweep.from_last = (is_x ? towards.x : is_y ? towards.y : towards.z) > 0.0;
-        sweep.hidden = is_x ? turned.data() : out;
+        sweep.hidden = is_x ? turned.data() : shares.data();
         kernels.sweep_covers(sweep);
         for (int z = 0; is_x && z < grid.size[2]; ++z)
             for (int y = 0; y < grid.size[1]; ++y)
                 for (int x = 0; x < grid.size[0]; ++x)
-                    out[z * by_z.layer_step + y * by_z.row_step + x] =
+                    shares[static_cast<std::size_t>(z * by_z.layer_step + y * by_z.row_step + x)] =
                         turned[static_cast<std::size_t>(x * by_x.layer_step + z * by_x.row_step + y)];
-        out += count;
-    }
-    return shares;
-}
-
-/// Terms of the light that is hidden, from the hidden shares of each direction.
-std::vector<float> hidden_terms(const std::vector<float>& shares, std::span<const float> lights, const RasterKernels& kernels) {
-    const std::vector<Vec3d> directions = shading::sky_directions(shading::kGridDirections);
-    std::vector<float> factors;
-    for (std::size_t d = 0; d < directions.size(); ++d) {
-        const double towards[3] = {directions[d].x, directions[d].y, directions[d].z};
+        const double direction[3] = {d.x, d.y, d.z};
         double terms[shading::kGridTerms] = {};
-        shading::add_grid_light(double{lights[d]}, towards, terms);
-        for (const double term : terms) factors.push_back(static_cast<float>(term));
+        shading::add_grid_light(double{*light++}, direction, terms);
+        float factors[shading::kGridTerms];
+        std::copy(std::begin(terms), std::end(terms), factors);
+        kernels.add_grid_terms(shares.data(), factors, static_cast<std::int64_t>(count), sums.data());
     }
-    const std::size_t points = shares.size() / directions.size();
-    std::vector<float> out(points * shading::kGridTerms);
-    kernels.sum_grid_terms({shares.data(), factors.data(), shading::kGridDirections, static_cast<std::int64_t>(points), out.data()});
+    std::vector<float> out(sums.size());
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t k = 0; k < shading::kGridTerms; ++k) out[p * shading::kGridTerms + k] = sums[k * count + p];
     return out;
 }
 
@@ -76,14 +70,14 @@ std::vector<float> hidden_terms(const std::vector<float>& shares, std::span<cons
 
 shading::SkyGridPlan make_sky_grid(const CoverGrid& covers, std::span<const shading::LightPlan> lights, const RasterKernels& kernels,
                                    SkyGrid& grid) {
-    if (grid.revision != covers.revision) grid = {covers.revision, hidden_shares(covers, kernels), {}, {}};
-    if (grid.hidden_shares.empty()) return {};
     std::vector<float> brightness(shading::kGridDirections, 0.0f);  // black ones are left out of the list
     for (const shading::LightPlan& light : lights) brightness[static_cast<std::size_t>(light.source)] = light.brightness;
-    if (brightness != grid.lights) {
-        grid.terms = hidden_terms(grid.hidden_shares, brightness, kernels);
+    if (grid.revision != covers.revision || brightness != grid.lights) {
+        grid.terms = hidden_terms(covers, brightness, kernels);
         grid.lights = std::move(brightness);
+        grid.revision = covers.revision;
     }
+    if (grid.terms.empty()) return {};
     shading::SkyGridPlan plan;
     plan.hidden = grid.terms.data();
     for (int axis = 0; axis < 3; ++axis) {

@@ -17,9 +17,8 @@ namespace halflit::raster {
 
 struct SkyGrid {
     std::optional<SceneRevision> revision;  ///< of the covers that it was made of; none: nothing is made yet
-    std::vector<float> hidden_shares;       ///< of each direction, those of all points; empty: nothing in the scene hides anything
     std::vector<float> lights;              ///< of each direction, that the terms were made of
-    std::vector<float> terms;               ///< of what is hidden at each point
+    std::vector<float> terms;               ///< of what is hidden at each point; empty: nothing in the scene hides anything
 };
 
 /// Makes the grid unless it is that of these covers and of this light already. lights: plan_lights(sky_lights(kGridDirections, ..)).

@@ -174,8 +174,8 @@ static void encode(const float* red, const float* green, const float* blue, cons
 namespace shading {
 #define HALFLIT_SHADE_KERNELS HALFLIT_CONCAT(shade_kernels_, HALFLIT_ISA)
 extern const ShadeKernels HALFLIT_SHADE_KERNELS;
-const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,       light,   hidden,       hidden_sky,   measure_cell, fit_cells,
-                                            shade_alpha, surface, count_lights, tone,         tone_samples, encode,
-                                            halve_texels, unit_normals, halve_means, lost_lengths};
+const ShadeKernels HALFLIT_SHADE_KERNELS = {shade,        light,        hidden,       hidden_sky,  measure_cell, fit_cells,
+                                            shade_alpha,  surface,      count_lights, tone,        tone_samples, encode,
+                                            halve_texels, unit_normals, halve_means,  lost_lengths};
 }  // namespace shading
 }  // namespace halflit

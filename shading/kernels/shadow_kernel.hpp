@@ -56,8 +56,12 @@ HALFLIT_INLINE MapPoint cube_point(const shading::ShadowMapPlan& map, const Cube
     const I face = axis + sel(at.negative, I(1), I(0));
     // Six faces of at most 2^22 texels: exact in float, and a multiplication of integers is slow on some sets.
     const I base = round_even(to_float(face) * F(static_cast<float>(map.size * map.size)));
-    return {mad(along_u * inv, half, middle), mad(sel(at.negative, F(0.0f) - along_v, along_v) * inv, half, middle), distance, base,
-            I(0), distance > F(0.0f)};
+    return {mad(along_u * inv, half, middle),
+            mad(sel(at.negative, F(0.0f) - along_v, along_v) * inv, half, middle),
+            distance,
+            base,
+            I(0),
+            distance > F(0.0f)};
 }
 
 /// A point in a map that is not a cube's. Where the filter would reach beyond the map, nothing casts a shadow.
@@ -95,8 +99,12 @@ HALFLIT_INLINE MapPoint in_cascades(const shading::ShadowMapPlan& map, V3 p, V3 
         // Four maps of at most 2^24 texels.
         texel = sel(at.inside, texel, F(next.texel_size));
         const M inside = at.inside | there.inside;
-        at = {sel(at.inside, at.u, there.u), sel(at.inside, at.v, there.v), sel(at.inside, at.distance, there.distance),
-              sel(at.inside, at.base, I(k * map.size * map.size)), sel(at.inside, at.wide_base, I(k * wide_texels)), inside};
+        at = {sel(at.inside, at.u, there.u),
+              sel(at.inside, at.v, there.v),
+              sel(at.inside, at.distance, there.distance),
+              sel(at.inside, at.base, I(k * map.size * map.size)),
+              sel(at.inside, at.wide_base, I(k * wide_texels)),
+              inside};
     }
     return at;
 }
@@ -219,7 +227,9 @@ HALFLIT_INLINE HiddenShares penumbra_share(const shading::ShadowMapPlan& map, co
         const F weight = share - wider;
         share = wider;
         if (!any(weight > none)) continue;
-        const HiddenShares of_level = k == 0 ? sharp : k == shading::kPenumbraLevels ? widest.hidden : wide(SparseRows{map, k, at.base}, k).hidden;
+        const HiddenShares of_level = k == 0                          ? sharp
+                                      : k == shading::kPenumbraLevels ? widest.hidden
+                                                                      : wide(SparseRows{map, k, at.base}, k).hidden;
         sum.hard = sum.hard + weight * of_level.hard;
         sum.soft = sum.soft + weight * of_level.soft;
     }

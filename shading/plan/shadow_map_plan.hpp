@@ -2,6 +2,7 @@
 #pragma once
 
 #include "halflit/shading.hpp"
+#include "sh/config.hpp"
 
 #include <cstdint>
 
@@ -34,8 +35,8 @@ inline constexpr float kShadowDepthBias = 0.5f, kShadowRelativeBias = 4e-6f;
 inline constexpr int kPenumbraLevels = 3;
 /// The widest filter's texels once more, next to each other: rows of wide_side() of a map's size. Number i of a row, or of rows, is texel
 /// wide_texel(i).
-constexpr int wide_side(int size) { return (size >> kPenumbraLevels) + 5; }
-constexpr int wide_texel(int i, int size) {
+HALFLIT_INLINE constexpr int wide_side(int size) { return (size >> kPenumbraLevels) + 5; }
+HALFLIT_INLINE constexpr int wide_texel(int i, int size) {
     const int at = ((i - 2) << kPenumbraLevels) + (1 << kPenumbraLevels) / 2;
     return at < 0 ? 0 : at < size ? at : size - 1;
 }

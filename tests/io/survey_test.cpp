@@ -140,7 +140,7 @@ TEST_CASE("surveys: models far from the origin are drawn as at the origin", "[io
         CHECK(near.placement.origin == Vec3d{});
         const auto at_origin = draw(near), away = draw(far);
         CHECK(share_apart(at_origin, std::vector<std::uint8_t>(at_origin.size())) > 0.5);
-        // Edges that pass by a sample, and another place in the voxels of sky and contact shadows: 0.010.
+        // Edges that pass by a sample, and another place in the lattice of sky and contact shadows: 0.010.
         CHECK(share_apart(at_origin, away) < 0.015);
         // Points of the file are where the placement says.
         const Vec3d corner = far.placement.into(kFar);

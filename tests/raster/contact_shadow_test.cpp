@@ -285,6 +285,20 @@ TEST_CASE("contact shadow: the same bits by every instruction set, tile size, nu
     }
 }
 
+TEST_CASE("contact shadow: what views leave out does not change it", "[raster][contact-shadow]") {
+    const std::vector<Block> alone{{{0, 0.5f, 0}, {0.5f, 0.5f, 0.5f}}};
+    std::vector<Block> strayed = alone;
+    strayed.push_back({{400, 0.001f, 400}, {0.001f, 0.001f, 0.001f}});  // behind the eye, as low as the cube
+    const auto expected = drawn(blocks(alone), looking(kEye), shadowed());
+    const Scene scene = blocks(strayed);
+    for (const int tile : {16, 64}) {
+        std::vector<float> linear(static_cast<std::size_t>(4 * kWidth * kHeight));
+        REQUIRE(
+            render(scene, looking(kEye), shadowed(), {.width = kWidth, .height = kHeight, .linear = linear.data()}, {.tile_size = tile}));
+        CHECK(linear == expected);
+    }
+}
+
 TEST_CASE("contact shadow: it follows a model that moves, in the frames of one renderer", "[raster][contact-shadow]") {
     Scene scene = cube();
     auto prepared = PreparedScene::make(scene);

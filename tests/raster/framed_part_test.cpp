@@ -325,21 +325,3 @@ TEST_CASE("framing: a shell around all else is left out if it is seen from insid
     CHECK(distance_of(framed(with_shell(inside_out(make_box({15, 15, 15})), {0, 0, 0}, false, false))) > 3 * distance_of(alone));
     CHECK(distance_of(framed(with_shell(inside_out(dome), {150, 0, 0}, false, false))) > 20 * distance_of(alone));
 }
-
-TEST_CASE("framing: main bounds lack what is far away and shells, and keep grounds", "[raster][framing]") {
-    const auto same_box = [](const Bounds& a, const Bounds& b) { return a.min == b.min && a.max == b.max && a.empty == b.empty; };
-    const auto main_of = [](const Scene& scene) { return raster::main_bounds(scene, scene_bounds(scene)); };
-    const Bounds alone = scene_bounds(car());
-    CHECK(same_box(main_of(car()), alone));
-    Scene scene = car();
-    add(scene, make_box({0.05f, 0.05f, 0.05f}), translation({2000, 0, 0}));
-    CHECK(same_box(main_of(scene), alone));
-    add(scene, inside_out(make_sphere(50000, 32, 16)), {});
-    CHECK(same_box(main_of(scene), alone));
-    Scene standing = car();
-    add(standing, make_plane(100, 1), {});
-    const Bounds with_ground = scene_bounds(standing);
-    CHECK(same_box(main_of(standing), with_ground));
-    add(standing, make_box({0.05f, 0.05f, 0.05f}), translation({60000, 0, 0}));
-    CHECK(same_box(main_of(standing), with_ground));
-}

@@ -94,6 +94,28 @@ TEST_CASE("view: what is flat is seen from farther above, a cube and a tower as 
     CHECK(behind.elevation_deg > 35);
 }
 
+TEST_CASE("view: a vertex far away, which is not framed, turns no view", "[raster][view]") {
+    const auto chosen = [](const Mesh& mesh) {
+        const Scene scene = with(mesh);
+        return choose_view(scene, scene_bounds(scene), 1.0f, {});
+    };
+    Mesh strayed = make_sphere(1.0f, 32, 64);
+    const FramedView alone = chosen(strayed);
+    // Its slivers are a flat surface, larger than the ball's.
+    for (const float far : {1e4f, 1e12f}) {
+        Mesh mesh = strayed;
+        const auto last = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.push_back({far, 0, 0});
+        mesh.normals.push_back({0, 1, 0});
+        if (!mesh.uv0.empty()) mesh.uv0.push_back({0, 0});
+        if (!mesh.tangents.empty()) mesh.tangents.push_back({1, 0, 0, 1});
+        for (const std::uint32_t v : {0u, 100u, 200u}) mesh.indices.insert(mesh.indices.end(), {v, v + 1, last});
+        CAPTURE(far);
+        CHECK(chosen(mesh).view == alone.view);
+        CHECK(chosen(mesh).camera == alone.camera);
+    }
+}
+
 TEST_CASE("view: what is open at the top is seen from farther above", "[raster][view]") {
     const ViewSettings usual;
     // A block, and the same with a hole, of four blocks around it.

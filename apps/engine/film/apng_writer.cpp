@@ -1,12 +1,8 @@
 // APNG: a PNG whose further frames are in chunks of their own, which other readers of PNG leave out. (PNG, third edition, 2023.)
 #include "apps/engine/film/film_writer.hpp"
-
-#include <libdeflate.h>
+#include "apps/io/pictures/png_writer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <initializer_list>
-#include <iterator>
 #include <new>
 #include <numeric>
 #include <string>
@@ -16,25 +12,7 @@ namespace halflit::film {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-void put(Bytes& out, std::uint32_t value, int bytes) {
-    const std::array<std::uint8_t, 4> big_endian{static_cast<std::uint8_t>(value >> 24), static_cast<std::uint8_t>(value >> 16),
-                                                 static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
-    out.insert(out.end(), big_endian.end() - bytes, big_endian.end());
-}
-
-/// Length, type, data, and the checksum of type and data.
-void put_chunk(Bytes& out, const char* type, std::initializer_list<std::pair<const std::uint8_t*, std::size_t>> parts) {
-    std::size_t size = 0;
-    for (const auto& part : parts) size += part.second;
-    put(out, static_cast<std::uint32_t>(size), 4);
-    const std::size_t begin = out.size();
-    out.insert(out.end(), type, type + 4);
-    for (const auto& [data, length] : parts) out.insert(out.end(), data, data + length);
-    put(out, libdeflate_crc32(0, out.data() + begin, out.size() - begin), 4);
-}
-
-void put_chunk(Bytes& out, const char* type, const Bytes& data) { put_chunk(out, type, {{data.data(), data.size()}}); }
+using io::put_big_endian;
 
 /// A fraction of 16-bit numbers if it is one, thousandths of a second otherwise.
 std::pair<std::uint32_t, std::uint32_t> delay_of(const FrameTime& time, std::size_t frame) {
@@ -47,39 +25,33 @@ std::pair<std::uint32_t, std::uint32_t> delay_of(const FrameTime& time, std::siz
 
 class ApngWriter final : public FilmWriter {
 public:
-    explicit ApngWriter(const FilmSettings& settings) : settings_(settings), compressor_(libdeflate_alloc_compressor(kLevel)) {
-        if (!compressor_) throw std::bad_alloc();
-        constexpr std::uint8_t kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-        file_.assign(std::begin(kSignature), std::end(kSignature));
+    explicit ApngWriter(const FilmSettings& settings)
+        : settings_(settings), color_(settings.opaque ? io::PngColor::rgb8 : io::PngColor::rgba8) {
+        io::begin_png(file_, settings.width, settings.height, color_);
         Bytes data;
-        put(data, static_cast<std::uint32_t>(settings.width), 4);
-        put(data, static_cast<std::uint32_t>(settings.height), 4);
-        data.insert(data.end(), {8, static_cast<std::uint8_t>(settings.opaque ? 2 : 6), 0, 0, 0});  // 8 bits, RGB or RGBA
-        put_chunk(file_, "IHDR", data);
-        data.clear();
-        put(data, static_cast<std::uint32_t>(settings.frames), 4);
-        put(data, 0, 4);  // plays for ever
-        put_chunk(file_, "acTL", data);
+        put_big_endian(data, static_cast<std::uint32_t>(settings.frames), 4);
+        put_big_endian(data, 0, 4);  // plays for ever
+        io::put_chunk(file_, "acTL", {data});
     }
 
     Result<void> add(const Image& frame) override {
         try {
-            const std::size_t size = compress(frame);
+            const auto packed = packer_.pack(settings_.width, settings_.height, color_, frame.rgba8.data());
             Bytes control;
-            put(control, sequence_++, 4);
-            put(control, static_cast<std::uint32_t>(settings_.width), 4);
-            put(control, static_cast<std::uint32_t>(settings_.height), 4);
-            put(control, 0, 4), put(control, 0, 4);  // its place
+            put_big_endian(control, sequence_++, 4);
+            put_big_endian(control, static_cast<std::uint32_t>(settings_.width), 4);
+            put_big_endian(control, static_cast<std::uint32_t>(settings_.height), 4);
+            put_big_endian(control, 0, 4), put_big_endian(control, 0, 4);  // its place
             const auto [top, bottom] = delay_of(settings_.frame_time, added_);
-            put(control, top, 2), put(control, bottom, 2);
+            put_big_endian(control, top, 2), put_big_endian(control, bottom, 2);
             control.insert(control.end(), {0, 0});  // the next frame replaces all of it
-            put_chunk(file_, "fcTL", control);
+            io::put_chunk(file_, "fcTL", {control});
             if (added_ == 0) {
-                put_chunk(file_, "IDAT", {{compressed_.data(), size}});
+                io::put_chunk(file_, "IDAT", {packed});
             } else {
                 Bytes number;
-                put(number, sequence_++, 4);
-                put_chunk(file_, "fdAT", {{number.data(), number.size()}, {compressed_.data(), size}});
+                put_big_endian(number, sequence_++, 4);
+                io::put_chunk(file_, "fdAT", {number, packed});
             }
             ++added_;
             return {};
@@ -89,38 +61,16 @@ public:
     }
 
     Result<std::vector<std::uint8_t>> finish() override {
-        put_chunk(file_, "IEND", Bytes{});
+        io::put_chunk(file_, "IEND", {});
         return std::move(file_);
     }
 
 private:
     static constexpr int kLevel = 6;
-    struct Free {
-        void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
-    };
-
-    /// Rows as differences to the pixel on the left (filter 1). Returns the number of bytes in compressed_.
-    std::size_t compress(const Image& frame) {
-        const auto width = static_cast<std::size_t>(settings_.width), height = static_cast<std::size_t>(settings_.height);
-        const std::size_t channels = settings_.opaque ? 3 : 4;
-        rows_.resize(height * (1 + width * channels));
-        std::uint8_t* out = rows_.data();
-        for (std::size_t y = 0; y < height; ++y) {
-            const std::uint8_t* pixel = frame.rgba8.data() + y * width * 4;
-            *out++ = 1;
-            for (std::size_t c = 0; c < channels; ++c) *out++ = pixel[c];
-            for (std::size_t x = 1; x < width; ++x) {
-                pixel += 4;
-                for (std::size_t c = 0; c < channels; ++c) *out++ = static_cast<std::uint8_t>(pixel[c] - pixel[c - 4]);
-            }
-        }
-        compressed_.resize(libdeflate_zlib_compress_bound(compressor_.get(), rows_.size()));
-        return libdeflate_zlib_compress(compressor_.get(), rows_.data(), rows_.size(), compressed_.data(), compressed_.size());
-    }
-
     FilmSettings settings_;
-    std::unique_ptr<libdeflate_compressor, Free> compressor_;
-    Bytes file_, rows_, compressed_;
+    io::PngColor color_;
+    io::PngPacker packer_{kLevel};
+    Bytes file_;
     std::uint32_t sequence_ = 0;
     std::size_t added_ = 0;
 };

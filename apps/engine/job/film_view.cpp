@@ -1,6 +1,7 @@
 #include "apps/engine/job/film_view.hpp"
 
-#include "raster/choice/framing.hpp"
+#include "halflit/camera.hpp"
+#include "raster/scene/framed_part.hpp"
 #include "raster/scene/placed_point.hpp"
 #include "sh/mat4.hpp"
 #include "sh/trig.hpp"
@@ -111,7 +112,7 @@ std::optional<Camera> film_camera(const Scene& scene, const Bounds& bounds, cons
         add_vertices(scene, profile);
     }
     const Scene discs = profile.scene();
-    return raster::frame_with_shadow(discs, raster::framed_part(discs), scene_bounds(discs), aspect, view);
+    return frame_scene(discs, aspect, view);
 }
 
 Camera turned_camera(const Camera& camera, const Bounds& bounds, std::int64_t frame, int frames_of_turn) {

@@ -141,7 +141,7 @@ void tell_view(RenderJob& job, const ViewSettings& drawn, ViewReason reason) {
                                        drawn.azimuth_deg, drawn.elevation_deg));
 }
 
-/// Warns of what a view of the whole leaves out. A ground reaches out of the picture for all to see.
+/// Warns of what a view of the whole leaves out. Grounds are not named: they are seen to be cut off.
 void warn_of_left_out(RenderJob& job) {
     constexpr std::size_t kMostNamed = 5;
     const NameOfInstance name_of = names_of(job.source.parts);

@@ -93,8 +93,8 @@ struct Cell {
     Vec4f background_linear;
 };
 
-/// tells: warnings are printed.
-Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureSize size, bool tells) {
+/// print_warnings: to standard error.
+Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureSize size, bool print_warnings) {
     try {
         auto job = make_render_job(options, size);
         if (!job) return tl::unexpected(job.error());
@@ -104,7 +104,7 @@ Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureS
         if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
         for (const auto& warnings : {job->warnings, rendered->warnings})
             for (const std::string& warning : warnings)
-                if (tells) print_warning(name + ": " + warning);
+                if (print_warnings) print_warning(name + ": " + warning);
         return Cell{std::move(image), job->settings.background_linear};
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::limit, name + ": out of memory");

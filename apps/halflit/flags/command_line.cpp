@@ -52,8 +52,7 @@ bool may_name(const std::vector<std::string>& arguments, const Flag& flag) {
     for (const std::string& name : words_of(flag.names, ','))
         for (const std::string& argument : arguments) {
             const bool is_long = name.starts_with("--");
-            if (is_long ? argument.starts_with(name)
-                        : argument.starts_with('-') && argument.find(name[1], 1) != std::string::npos)
+            if (is_long ? argument.starts_with(name) : argument.starts_with('-') && argument.find(name[1], 1) != std::string::npos)
                 return true;
         }
     return false;

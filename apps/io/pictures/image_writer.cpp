@@ -5,12 +5,11 @@
 #include "apps/io/files/text.hpp"
 #include "apps/io/pictures/exr_file.hpp"
 #include "apps/io/pictures/pfm_file.hpp"
+#include "apps/io/pictures/png_writer.hpp"
 #include "apps/io/pictures/webp_encoder.hpp"
 #include "apps/io/platform/files.hpp"
 #include "sh/fp_environment.hpp"
 #include "shading/out_of_memory.hpp"
-
-#include <libdeflate.h>
 
 #include <algorithm>
 #include <cctype>
@@ -70,23 +69,6 @@ private:
 };
 thread_local EncoderMemory* EncoderMemory::current_ = nullptr;
 
-/// zlib stream of stb's filtered rows, in memory that stb frees; stb's own compressor takes five times as long. `size` is below 2^31, as
-/// kMaxImagePixels have 4 bytes each and there is a byte for each row. The compressor's own memory is 0.2 MB.
-static unsigned char* compress_rows(unsigned char* rows, int size, int* compressed_size, int) {
-    constexpr int kLevel = 1;  // 4: 4 to 11 % smaller, in up to 1.4 times the time
-    struct Free {
-        void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
-    };
-    const std::unique_ptr<libdeflate_compressor, Free> compressor(libdeflate_alloc_compressor(kLevel));
-    if (!compressor) throw std::bad_alloc();
-    const auto bytes = static_cast<std::size_t>(size);
-    const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), bytes);
-    auto* const out = static_cast<unsigned char*>(EncoderMemory::take(bound));
-    *compressed_size = static_cast<int>(libdeflate_zlib_compress(compressor.get(), rows, bytes, out, bound));
-    return out;
-}
-#define STBIW_ZLIB_COMPRESS compress_rows
-#define STBIW_CRC32(bytes, size) libdeflate_crc32(0, bytes, static_cast<std::size_t>(size))
 #define STBIW_MALLOC(size) EncoderMemory::take(size)
 #define STBIW_REALLOC(memory, size) EncoderMemory::resize(memory, size)
 #define STBIW_FREE(memory) EncoderMemory::give(memory)
@@ -102,10 +84,6 @@ namespace {
 
 constexpr int kJpegQuality = 95;
 constexpr float kLargestRgbe = 1.69e38f;  // 255/256 * 2^127
-
-/// PNG's number of the filter Sub: a byte less the same byte of the pixel to the left. Up gives files of the same size in the same time.
-/// Paeth saves 7 % of a file at best and takes 10 ms longer for 2 million pixels; the best filter of each row takes 40 ms longer.
-constexpr int kFilterSub = 1;
 
 /// Target of the encoder's C callback. An exception may not pass through C code, so it is kept here.
 struct Sink {
@@ -130,28 +108,6 @@ std::vector<std::uint8_t> rgb8_over_black(const Image& image) {
     for (std::size_t i = 0; i < image.rgba8.size(); i += 4)
         for (std::size_t c = 0; c < 3; ++c) rgb.push_back(static_cast<std::uint8_t>((image.rgba8[i + c] * image.rgba8[i + 3] + 127) / 255));
     return rgb;
-}
-
-bool is_opaque(const Image& image) {
-    std::uint8_t all = 255;
-    for (std::size_t i = 3; i < image.rgba8.size(); i += 4) all &= image.rgba8[i];
-    return all == 255;
-}
-
-std::unique_ptr<std::uint8_t[]> rgb8_of(const Image& image) {
-    const std::size_t pixels = image.rgba8.size() / 4;
-    auto rgb = std::make_unique_for_overwrite<std::uint8_t[]>(3 * pixels + 1);  // of the last pixel, alpha is copied too
-    for (std::size_t i = 0; i < pixels; ++i) std::memcpy(&rgb[3 * i], &image.rgba8[4 * i], 4);
-    return rgb;
-}
-
-/// An opaque picture is stored without alpha: three quarters of the time, and a file of 7/8 of the size.
-int png_of(const Image& image, Sink& sink) {
-    // stb has the filter in a variable; it is set once, so that several threads may encode.
-    [[maybe_unused]] static const int set = stbi_write_force_png_filter = kFilterSub;
-    const int w = image.width, h = image.height;
-    if (is_opaque(image)) return stbi_write_png_to_func(&Sink::append, &sink, w, h, 3, rgb8_of(image).get(), 3 * w);
-    return stbi_write_png_to_func(&Sink::append, &sink, w, h, 4, image.rgba8.data(), 4 * w);
 }
 
 std::vector<float> rgb_linear_over_black(const Image& image) {
@@ -232,7 +188,7 @@ constexpr int kAnySide = std::numeric_limits<int>::max();
 
 /// Indexed by OutputFormat.
 constexpr FormatRow kFormats[] = {
-    {"png", "", kAnySide, by_stb<png_of>, nullptr, ""},
+    {"png", "", kAnySide, [](const Image& image) -> Encoded { return encode_png(image.width, image.height, image.rgba8); }, nullptr, ""},
     {"bmp", "", kAnySide, by_stb<bmp_of>, nullptr, ""},
     {"tga", "", 65535, by_stb<tga_of>, nullptr, ""},
     {"jpg", "jpeg", 65535, by_stb<jpg_of>, nullptr, ""},

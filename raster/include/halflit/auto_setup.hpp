@@ -20,7 +20,7 @@ enum class StudioUse : std::uint8_t {
     for_dark,  ///< in full where the scene has no light from all around; lights of an unknown unit, as those of files, add to it
     always,    ///< always, in full, instead of the scene's ambient light and environment
     never,     ///< never: add_default_lights() takes its place
-    /// As for_dark, but 0.15 of it under any lights, which leave their far sides black and metals nothing to mirror.
+    /// As for_dark, but 0.15 of it under any lights: without it what faces away from them is black, and metals have nothing to mirror.
     under_lights
 };
 

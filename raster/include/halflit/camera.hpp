@@ -129,7 +129,7 @@ enum class ViewReason : std::uint8_t {
     backs    ///< from the usual side only backs are seen, which are not drawn
 };
 
-/// A view of a whole scene, and the camera that frame_scene() makes of it, with room for the shadow below.
+/// A view of a whole scene, and the camera that frame_scene() makes of it.
 struct FramedView {
     ViewSettings view;                      ///< its direction, and how it is fitted
     Camera camera;                          ///< that shows the scene whole

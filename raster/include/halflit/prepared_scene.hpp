@@ -49,7 +49,8 @@ public:
 
     /// The scene that it was made from.
     [[nodiscard]] HALFLIT_API const Scene& scene() const;
-    /// World-space box of everything drawn but shadow catchers; the same as scene_bounds().
+    /// World-space box of everything drawn but shadow catchers, instances whose alpha is 0, and those that their matrix gives no extent;
+    /// the same as scene_bounds().
     [[nodiscard]] HALFLIT_API const Bounds& bounds() const;
     /// Number of triangles over all instances.
     [[nodiscard]] HALFLIT_API std::uint64_t triangle_count() const;

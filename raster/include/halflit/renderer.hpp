@@ -56,8 +56,9 @@ public:
                                                                    int height, const MeasuredShare* known = nullptr,
                                                                    const Execution& execution = {});
 
-    /// Drops the plan, light distances, shadow maps and geometry of earlier frames. Keeps their memory, and results that depend on an
-    /// environment or a material alone. The next frame does the same work as after a change of the whole scene's geometry.
+    /// Drops the plan, light distances, shadow maps, the grid of what hides the surroundings, contact shadows and geometry of earlier
+    /// frames. Keeps their memory, and results that depend on an environment or a material alone. The next frame does the same work as
+    /// after a change of the whole scene's geometry.
     HALFLIT_API void forget_frames();
 
 private:

@@ -27,7 +27,8 @@ struct Scene : Lighting {
     std::uint64_t frame_work = 0;
 };
 
-/// World-space bounds of everything drawn but shadow catchers. Vertices that are not finite are left out.
+/// World-space bounds of everything drawn but shadow catchers, instances whose alpha is 0, and those that their matrix gives no extent.
+/// Vertices that are not finite are left out.
 [[nodiscard]] HALFLIT_API Bounds scene_bounds(const Scene& scene);
 
 /// Adds a key light over the viewer's left shoulder, and sets ambient light from sky and ground: light for a scene that has none.

@@ -131,7 +131,7 @@ private:
     std::vector<std::vector<std::uint16_t>> held_;  ///< the last rows of those left out
     std::vector<int> rows_;                         ///< of each level that are done
     const shading::ShadeKernels* kernels_ = nullptr;
-    std::unique_ptr<MomentLevels> moments_;         ///< for rules other than equal
+    std::unique_ptr<MomentLevels> moments_;  ///< for rules other than equal
 };
 
 /// A material's use of a texture: the texture, its sampler and the coordinates.
