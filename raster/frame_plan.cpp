@@ -283,7 +283,7 @@ Result<SkyPlan> plan_sky(const PreparedData& scene, const Lighting& light, const
     plan.lights = shading::plan_lights(
         shading::sky_lights(plan.directions, in_grid ? kRowsOfGrid : kRows, light.environment.get(), light.ambient, memory.sky_cells));
     if (in_grid) {
-        plan.grid = make_sky_grid(memory.covers, plan.lights, *memory.kernels, memory.sky_grid);
+        plan.grid = make_sky_grid(memory.covers, plan.lights, *memory.kernels, memory.for_each_row, memory.sky_grid);
         return plan;
     }
     Settings of_sky = settings;
@@ -307,7 +307,7 @@ ContactShadow plan_contact_shadow(const PreparedData& scene, const Camera& camer
                                   FramePlanMemory& memory) {
     if (settings.contact_shadow == 0.0f || settings.shadows == ShadowMode::off || has_shadow_catcher(scene)) return {};
     make_cover_grid(scene, memory.covers);
-    make_contact_map(memory.covers, *memory.kernels, memory.contact_map);
+    make_contact_map(memory.covers, *memory.kernels, memory.for_each_row, memory.contact_map);
     return {memory.contact_map.map, camera, width, height, settings.contact_shadow};
 }
 
@@ -367,7 +367,7 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
                                                       sky->directions, sky->grid, static_cast<double>(settings.shadow_fade)},
                                           .facts = budget ? &facts : nullptr,
                                           .drawn = &prepared.drawn_materials(),
-                                          .for_each_row = memory.for_each_row ? memory.for_each_row : shading::in_turn,
+                                          .for_each_row = memory.for_each_row,
                                           .looks = prepared.looks()},
                                          memory.shading);
     plan.written = plan.picture.region;

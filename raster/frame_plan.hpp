@@ -72,8 +72,8 @@ struct FramePlanMemory {
     SkyGrid sky_grid;
     KeptContactMap contact_map;
     shading::SkyCells sky_cells;
-    shading::ForEachRow for_each_row;  ///< of the call; empty: none
-    StopSignal* stop = nullptr;        ///< of the call; null: none, and shadow_texels has no value
+    shading::ForEachRow for_each_row = shading::in_turn;  ///< of the call
+    StopSignal* stop = nullptr;                           ///< of the call; null: none, and shadow_texels has no value
 };
 
 /// Plans a picture of width x height pixels. Fails for settings that are out of range or exclude each other, and for a camera without a

@@ -43,14 +43,16 @@ inline void sweep_covers(const CoverSweep& s) {
     }
 }
 
-inline void add_grid_terms(const float* share, const float (&factors)[shading::kGridTerms], std::int64_t points, float* sums) {
-    for (std::int64_t p = 0; p < points; p += kWidth) {
-        const F hidden = load(share + p);
-        float* at = sums + p;
-        for (const float factor : factors) {
-            store(at, mad(hidden, F(factor), load(at)));
-            at += points;
+inline void add_grid_terms(const GridTermSums& s) {
+    constexpr int kTerms = shading::kGridTerms;
+    for (std::int64_t p = s.first; p < s.end; p += kWidth) {
+        F terms[kTerms];
+        for (int k = 0; k < kTerms; ++k) terms[k] = load(s.sums + k * s.points + p);
+        for (int d = 0; d < s.directions; ++d) {
+            const F share = load(s.shares[d] + p);
+            for (int k = 0; k < kTerms; ++k) terms[k] = mad(share, F(s.factors[d][k]), terms[k]);
         }
+        for (int k = 0; k < kTerms; ++k) store(s.sums + k * s.points + p, terms[k]);
     }
 }
 

@@ -234,6 +234,18 @@ struct CoverSweep {
     float* hidden;              ///< out: at each point
 };
 
+/// Directions at a time whose hidden shares are added up.
+inline constexpr int kSweptAtOnce = 8;
+/// Sums over directions of shares times factors, for points from `first` to `end`, multiples of kCoverPitch.
+struct GridTermSums {
+    const float* shares[kSweptAtOnce];  ///< of each direction, those of all points
+    float factors[kSweptAtOnce][shading::kGridTerms];
+    int directions;
+    std::int64_t first, end;
+    std::int64_t points;  ///< of all
+    float* sums;          ///< in and out: kGridTerms lists of `points`
+};
+
 /// A layer of covers as seen from the ground, whose cells are as wide as the lattice's spacing.
 struct GroundCover {
     const float* parts[kCoverParts];  ///< of the layer's first row
@@ -283,8 +295,7 @@ struct RasterKernels {
     /// Distances along a shadow map's axis for a row of depths.
     void (*distances)(const DepthRange&, const float* depth, int count, float* distance);
     void (*sweep_covers)(const CoverSweep&);
-    /// Adds a direction's shares times factors to kGridTerms lists of sums, of `points` points each, a multiple of kCoverPitch.
-    void (*add_grid_terms)(const float* share, const float (&factors)[shading::kGridTerms], std::int64_t points, float* sums);
+    void (*add_grid_terms)(const GridTermSums&);
     void (*cover_ground)(const GroundCover&);
     /// Opacities of the contact shadow at `count` pixels from x_px on, at most kMaxTileSize.
     void (*shadow_row)(const GroundShadow&, int x_px, int count, float* opacity);

@@ -246,8 +246,8 @@ void PictureTile::write_background(int row, std::uint64_t pixels, const Pixel& p
     const int y = rect_.y + row;
     alignas(64) std::uint32_t code[kTileStride];
     std::fill_n(code, rect_.width, plain.code);
-    int first = rect_.width, end = 0;  // of the shadow
-    alignas(64) float linear[4][kTileStride] = {};
+    int first = rect_.width, end = 0;          // of the shadow
+    alignas(64) float linear[4][kTileStride];  // where it is shaded
     if (has_contact_shadow_) {
         const float* const opacity = shadow_row(row);
         for (first = 0, end = rect_.width; first < end && !(opacity[first] > 0.0f);) ++first;

@@ -20,52 +20,69 @@ constexpr int kDirections = 32;
 constexpr double kReach = 0.3;         ///< within which the shadow fades beside the foot, over the longest side
 constexpr double kPictureFade = 0.06;  ///< from the picture's border, over its shorter side: a shadow is not cut off there
 
-/// Sum over directions of equal light of the share that is hidden from each cell of the ground. first: cell of the lattice's first point.
-std::vector<float> hidden_sums(const CoverGrid& grid, double ground, const int (&first)[2], const RasterKernels& kernels) {
+/// Memory for one direction.
+struct Grounded {
+    std::vector<float> sums = std::vector<float>(kSide * kGroundPitch), shares, x, z;
+};
+
+/// Sets the sums over layers of what they hide from each cell of the ground in a direction. first: cell of the lattice's first point;
+/// filled: layers that hide something.
+void cover(const CoverGrid& grid, double ground, const int (&first)[2], const std::vector<bool>& filled, int direction,
+           const RasterKernels& kernels, Grounded& out) {
     const LatticeCovers& covers = grid.along_x;
-    std::vector<float> out(kSide * kSide), sums(kSide * kGroundPitch), x, z;
-    std::vector<float> shares(static_cast<std::size_t>(grid.size[2] + 3) * kGroundPitch);
+    out.shares.resize(static_cast<std::size_t>(grid.size[2] + 3) * kGroundPitch);
+    std::fill(out.sums.begin(), out.sums.end(), 0.0f);
     GroundCover layer{};
     layer.length = grid.size[0], layer.rows = grid.size[2], layer.row_step = covers.layout.layer_step;
     layer.first_x = first[0], layer.first_z = first[1];
-    layer.shares = shares.data(), layer.sums = sums.data();
+    layer.shares = out.shares.data(), layer.sums = out.sums.data();
+    // Points of a spiral that fills a disc evenly [Vog79], lifted to the half sphere above it: equal parts of its light (Malley).
+    const double across = std::sqrt((direction + 0.5) / kDirections), up = std::sqrt(1.0 - across * across);
+    const SinCos turn = sin_cos(2.0 * kPi * kGoldenTurn * direction);
+    const double towards[3] = {turn.cos * across / up, 1.0, turn.sin * across / up};
+    // Along a flat direction a layer's shadow is longer than a cell.
+    layer.steps = std::max(1, static_cast<int>(std::ceil(std::max(absolute(towards[0]), absolute(towards[2])))));
+    for (int k = 0; k < 3; ++k) {
+        layer.towards[k] = static_cast<float>(towards[k] / layer.steps);
+        layer.size[k] = static_cast<float>(absolute(towards[k]) / layer.steps);
+    }
+    for (int y = 0; y < grid.size[1]; ++y) {
+        if (!filled[static_cast<std::size_t>(y)]) continue;
+        const auto row = static_cast<std::size_t>(y);
+        for (std::size_t k = 0; k < kCoverParts; ++k) layer.parts[k] = covers.parts[k].data() + row * kCoverPitch;
+        layer.filled = covers.filled.data() + row;
+        out.x.clear(), out.z.clear();
+        for (int step = 0; step < layer.steps; ++step) {
+            const double height = std::max(0.0, y - ground + (step + 0.5) / layer.steps - 0.5), beyond = 2.0 * kSide;
+            out.x.push_back(static_cast<float>(std::clamp(towards[0] * height, -beyond, beyond)));
+            out.z.push_back(static_cast<float>(std::clamp(towards[2] * height, -beyond, beyond)));
+        }
+        layer.x = out.x.data(), layer.z = out.z.data();
+        kernels.cover_ground(layer);
+    }
+}
+
+/// Sum over directions of equal light of the share that is hidden from each cell of the ground.
+std::vector<float> hidden_sums(const CoverGrid& grid, double ground, const int (&first)[2], const RasterKernels& kernels,
+                               const shading::ForEachRow& for_each) {
+    constexpr int kAtOnce = 8;
+    static_assert(kDirections % kAtOnce == 0);
     std::vector<bool> filled;
     for (int y = 0; y < grid.size[1]; ++y) {
         bool any = false;
-        for (int k = 0; k < grid.size[2]; ++k) any |= covers.filled[static_cast<std::size_t>(k * grid.size[1] + y)] != 0;
+        for (int k = 0; k < grid.size[2]; ++k) any |= grid.along_x.filled[static_cast<std::size_t>(k * grid.size[1] + y)] != 0;
         filled.push_back(any);
     }
-    for (int i = 0; i < kDirections; ++i) {
-        // Points of a spiral that fills a disc evenly [Vog79], lifted to the half sphere above it: equal parts of its light (Malley).
-        const double across = std::sqrt((i + 0.5) / kDirections), up = std::sqrt(1.0 - across * across);
-        const SinCos turn = sin_cos(2.0 * kPi * kGoldenTurn * i);
-        const double towards[3] = {turn.cos * across / up, 1.0, turn.sin * across / up};
-        // Along a flat direction a layer's shadow is longer than a cell.
-        layer.steps = std::max(1, static_cast<int>(std::ceil(std::max(absolute(towards[0]), absolute(towards[2])))));
-        for (int k = 0; k < 3; ++k) {
-            layer.towards[k] = static_cast<float>(towards[k] / layer.steps);
-            layer.size[k] = static_cast<float>(absolute(towards[k]) / layer.steps);
-        }
-        std::fill(sums.begin(), sums.end(), 0.0f);
-        for (int y = 0; y < grid.size[1]; ++y) {
-            if (!filled[static_cast<std::size_t>(y)]) continue;
-            const auto row = static_cast<std::size_t>(y);
-            for (std::size_t k = 0; k < kCoverParts; ++k) layer.parts[k] = covers.parts[k].data() + row * kCoverPitch;
-            layer.filled = covers.filled.data() + row;
-            x.clear(), z.clear();
-            for (int step = 0; step < layer.steps; ++step) {
-                const double height = std::max(0.0, y - ground + (step + 0.5) / layer.steps - 0.5), beyond = 2.0 * kSide;
-                x.push_back(static_cast<float>(std::clamp(towards[0] * height, -beyond, beyond)));
-                z.push_back(static_cast<float>(std::clamp(towards[2] * height, -beyond, beyond)));
+    std::vector<float> out(kSide * kSide);
+    std::vector<Grounded> of(kAtOnce);
+    for (int begin = 0; begin < kDirections; begin += kAtOnce) {
+        for_each(kAtOnce, [&](int i) { cover(grid, ground, first, filled, begin + i, kernels, of[static_cast<std::size_t>(i)]); });
+        for (const Grounded& one : of)
+            for (int row = 0; row < kSide; ++row) {
+                const float* const from = &one.sums[static_cast<std::size_t>(row * kGroundPitch)];
+                float* const to = &out[static_cast<std::size_t>(row * kSide)];
+                for (int k = 0; k < kSide; ++k) to[k] += from[k] < 1.0f ? from[k] : 1.0f;
             }
-            layer.x = x.data(), layer.z = z.data();
-            kernels.cover_ground(layer);
-        }
-        for (int row = 0; row < kSide; ++row) {
-            const float* const from = &sums[static_cast<std::size_t>(row * kGroundPitch)];
-            float* const to = &out[static_cast<std::size_t>(row * kSide)];
-            for (int k = 0; k < kSide; ++k) to[k] += from[k] < 1.0f ? from[k] : 1.0f;
-        }
     }
     return out;
 }
@@ -96,7 +113,7 @@ double standing(const CoverGrid& grid) {
     return (1.0 - smoothstep(beside / kUnstable)) * (kPalest + (1.0 - kPalest) * smoothstep(broad));
 }
 
-ContactMap map_of(const CoverGrid& grid, const RasterKernels& kernels) {
+ContactMap map_of(const CoverGrid& grid, const RasterKernels& kernels, const shading::ForEachRow& for_each) {
     ContactMap map;
     map.ground = grid.lowest;
     if (grid.empty()) return map;
@@ -109,7 +126,7 @@ ContactMap map_of(const CoverGrid& grid, const RasterKernels& kernels) {
         first[k] = (kSide - grid.size[2 * k]) / 2;
         *middle[k] = grid.origin[2 * k] - first[k] / map.per_length;
     }
-    map.hidden = hidden_sums(grid, (grid.lowest - grid.origin[1]) * grid.per_length, first, kernels);
+    map.hidden = hidden_sums(grid, (grid.lowest - grid.origin[1]) * grid.per_length, first, kernels, for_each);
     blur(map.hidden, 1), blur(map.hidden, kSide);
     const auto beside_foot = [&](int cell, int axis) {
         const double at = cell - first[axis];
@@ -131,9 +148,9 @@ ContactMap map_of(const CoverGrid& grid, const RasterKernels& kernels) {
 
 }  // namespace
 
-void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, KeptContactMap& kept) {
+void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, const shading::ForEachRow& for_each, KeptContactMap& kept) {
     if (kept.revision == covers.revision) return;
-    kept.map = std::make_shared<const ContactMap>(map_of(covers, kernels));
+    kept.map = std::make_shared<const ContactMap>(map_of(covers, kernels, for_each));
     kept.revision = covers.revision;
 }
 

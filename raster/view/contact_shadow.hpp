@@ -9,6 +9,7 @@
 #include "halflit/camera.hpp"
 #include "halflit/target.hpp"
 #include "raster/view/cover_grid.hpp"
+#include "shading/reflection_map.hpp"
 
 #include <memory>
 #include <optional>
@@ -32,7 +33,7 @@ struct KeptContactMap {
 
 /// Makes the map unless it is that of these covers already. A scene stands if its middle lies above its foot. Beside the foot the shadow
 /// fades, and below a narrow one it is paler.
-void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, KeptContactMap& kept);
+void make_contact_map(const CoverGrid& covers, const RasterKernels& kernels, const shading::ForEachRow& for_each, KeptContactMap& kept);
 
 /// A contact shadow in a picture.
 class ContactShadow {

@@ -8,6 +8,7 @@
 #include "raster/view/cover_grid.hpp"
 #include "shading/plan/light_plan.hpp"
 #include "shading/plan/sky_grid_plan.hpp"
+#include "shading/reflection_map.hpp"
 
 #include <optional>
 #include <span>
@@ -23,6 +24,6 @@ struct SkyGrid {
 
 /// Makes the grid unless it is that of these covers and of this light already. lights: plan_lights(sky_lights(kGridDirections, ..)).
 [[nodiscard]] shading::SkyGridPlan make_sky_grid(const CoverGrid& covers, std::span<const shading::LightPlan> lights,
-                                                 const RasterKernels& kernels, SkyGrid& grid);
+                                                 const RasterKernels& kernels, const shading::ForEachRow& for_each, SkyGrid& grid);
 
 }  // namespace halflit::raster

@@ -2,6 +2,7 @@
 
 #include "apps/engine/basics/spelling.hpp"
 #include "apps/io/files/text.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
 #include "apps/io/models/formats.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
@@ -106,7 +107,10 @@ Result<std::vector<std::string>> with_models_named(const std::vector<std::string
     std::vector<std::string> scenes;
     for (const std::string& word : words) {
         const std::vector<std::string> models = models_named(word);
-        if (models.empty() && is_folder(word)) return fail(ErrorCode::usage, word + ": is a folder without models");
+        if (models.empty() && is_folder(word))
+            return fail(ErrorCode::usage, word + ": is a folder without models; folders in it are not looked into");
+        if (models.empty() && word.find_first_of("*?") != std::string::npos && !is_file(word) && !io::is_picture_name(word))
+            return fail(ErrorCode::usage, word + ": no model fits; * and ? stand for parts of a file's name, not of a folder's");
         if (models.empty()) scenes.push_back(word);
         scenes.insert(scenes.end(), models.begin(), models.end());
     }

@@ -324,8 +324,11 @@ void tell_choices(RenderJob& job, const RenderOptions& given) {
     job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
                                         job.film.view.value_or(front_view(job.scene(), given.view)), job.film.reason,
                                         !of_file && !cameras.empty() && !whole));
-    job.choices.push_back(fmt::format("lights: {}{}{}{}", job.light.all_lights().size(),
-                                      job.light.lights.size() > job.film.choice.light->lights.size() ? ", added by default" : "",
+    const std::size_t lights = job.light.all_lights().size(), added = job.light.lights.size() - job.film.choice.light->lights.size();
+    job.choices.push_back(fmt::format("lights: {}{}{}{}", lights,
+                                      added == 0        ? ""
+                                      : added == lights ? ", added by default"
+                                                        : fmt::format(", {} of them added by default", added),
                                       job.light.environment == nullptr ? ""
                                       : given.environment.empty()      ? ", and the environment studio"
                                                                        : ", and the environment " + given.environment,

@@ -8,9 +8,9 @@ namespace halflit::engine {
 namespace {
 
 template <class T>
-Flag limit_flag(const char* name, T& target, const char* what, std::int64_t max) {
-    const auto parse = [max](const std::string& text) {
-        return parse_int(text, 1, max).map([](std::int64_t n) { return static_cast<T>(n); });
+Flag limit_flag(const char* name, T& target, const char* what, std::int64_t max, std::int64_t min = 1) {
+    const auto parse = [min, max](const std::string& text) {
+        return parse_int(text, min, max).map([](std::int64_t n) { return static_cast<T>(n); });
     };
     return {.names = name, .form = "N", .help = fmt::format("Refuse {} (default {})", what, target), .read = parsed(target, parse)};
 }
@@ -52,10 +52,10 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
                     "textures of more pixels in all than this number; textures that need more bytes are made smaller", kAny),
          limit_flag("--max-jpeg-scans", limits.max_jpeg_scans, "JPEG files of more scans", 1 << 20),
          limit_flag("--max-geometry-bytes", limits.max_geometry_bytes, "more memory for vertices and triangles", kAny),
-         limit_flag(
-             "--max-work", limits.max_work,
-             "files and frames of more work than this estimate, in nanoseconds of one core; without it, small files may take some seconds",
-             kAny),
+         limit_flag("--max-work", limits.max_work,
+                    "files and frames of more work than this estimate, in nanoseconds of one core; 0: 1.7e9, and 1,000 for each byte of "
+                    "the files",
+                    kAny, 0),
          limit_flag("--max-lights", limits.max_lights, "more lights", 1 << 20)}};
 }
 

@@ -128,7 +128,7 @@ Result<Header> read_header(std::span<const std::byte> file) {
     Header header;
     auto line = lines.next();
     if (!line || !(line->starts_with("#?RADIANCE") || line->starts_with("#?RGBE")))
-        return refuse("expected a Radiance picture, which begins with #?RADIANCE or #?RGBE");
+        return refuse("expected a Radiance picture, which begins with #?RADIANCE or #?RGBE, or an EXR or PFM picture");
     for (line = lines.next(); line && !line->empty(); line = lines.next())
         if (const auto read = read_variable(lines, *line, header); !read) return tl::unexpected(read.error());
     if (!line) return tl::unexpected(line.error());
