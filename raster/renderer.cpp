@@ -164,6 +164,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     if (has_dome || has_lines) watched.on_tile = {};  // told when the picture is done
     TileCounts tiles = draw_tiles(pass, watched, shades && plan.looks_through ? 0.5 : 0.0);
     tiles.work += behind_counts.work, tiles.fragments_shaded += behind_counts.fragments_shaded;
+    tiles.layers_seen += behind_counts.layers_seen;
     if (has_dome) eye_dome.shade(plan, output, executor);
     if (has_lines) {
         const Execution rest = with_time_left(execution, begun.lap() / 1000.0);
@@ -187,6 +188,8 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     const bool whole_picture = drawn.width == target.width && drawn.height == target.height;
     if (report.triangles_submitted == 0)
         report.warnings.emplace_back("nothing to draw");
+    else if (whole_picture && report.pixels_visible == 0 && report.fragments_shaded > 0 && tiles.layers_seen == 0)
+        report.warnings.emplace_back("nothing to draw: the alpha of all that is in view is 0");
     else if (whole_picture && report.pixels_visible == 0 && report.fragments_shaded == 0)
         report.warnings.emplace_back("nothing to draw: all triangles face away, lie outside of the view, or cover no sample");
     return report;

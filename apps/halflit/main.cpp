@@ -52,8 +52,8 @@ bool means_render(const std::vector<std::string>& arguments) {
     for (std::size_t i = 1; i < arguments.size(); ++i)
         if (is_command(arguments[i]) && !is_scene(arguments[i]) && !arguments[i - 1].starts_with('-')) return false;
     const std::string name = first.substr(0, first.find('='));
-    const Command render = render_command();
-    for (const Flag* flag : flags_of(render))
+    const std::vector<Command> render = commands_for("render");
+    for (const Flag* flag : flags_of(render.front()))
         for (const std::string& spelling : words_of(flag->names, ','))
             if (spelling == name || (spelling.size() == 2 && name.starts_with(spelling)))
                 return std::any_of(arguments.begin() + 1, arguments.end(), is_scene);

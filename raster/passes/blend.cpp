@@ -168,6 +168,7 @@ void PictureTile::shade_layers(FragmentList& list) {
         const auto fragment = static_cast<std::size_t>(list.samples[l]);
         if (shown) scratch_.layers->is_shown[fragment] = 1;
         scratch_.layers->light[fragment] = light;
+        counts_.layers_seen += static_cast<std::uint64_t>(light.w > 0.0f || transmits_);
         if (transmits_) scratch_.layers->keep[fragment] = keep_of(list.material, l, light);
     }
     list.count = 0;

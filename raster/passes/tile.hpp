@@ -27,12 +27,14 @@ struct TilePass {
 /// Counts of a tile; summed over the view.
 struct TileCounts {
     std::uint64_t pixels_visible = 0, fragments_shaded = 0, nan_pixels = 0;
+    std::uint64_t layers_seen = 0;  ///< fragments of layers that are not clear
     WorkCounts work;
 
     TileCounts& operator+=(const TileCounts& other) {
         pixels_visible += other.pixels_visible;
         fragments_shaded += other.fragments_shaded;
         nan_pixels += other.nan_pixels;
+        layers_seen += other.layers_seen;
         work += other.work;
         return *this;
     }

@@ -142,6 +142,13 @@ TEST_CASE("command line: quiet leaves errors alone, verbose says what was chosen
         !contains(run({"render", "sphere:500", "--size", "16", "--background", "transparent", "-o", folder.file("a.png")}).err, "warning"));
 }
 
+TEST_CASE("command line: flags of messages may come before the scene, too", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"-q", "sphere:500", "--size", "8", "-o", folder.file("a.png")});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+}
+
 TEST_CASE("command line: a folder that is missing is found before the scene is read", "[cli]") {
     const TemporaryFolder folder;
     const Outcome outcome = run({"render", "missing.glb", "-o", folder.file("no/a.png")});

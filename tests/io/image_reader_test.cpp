@@ -192,6 +192,25 @@ TEST_CASE("png: chunks after the pixels, a transparent colour and indices past t
           std::vector<std::uint8_t>{7, 7, 7, 255, 0, 0, 0, 255});
 }
 
+TEST_CASE("png: notes before the pixels may be empty, many or large", "[io]") {
+    const auto sample = [](std::uint32_t x, std::uint32_t, int) { return 3 * x; };
+    const Bytes second = {std::byte{0}, std::byte{3}};
+    for (const bool transparent : {false, true}) {
+        const Bytes plain = make_png({4, 3, 8, 0, false, {}, transparent ? second : Bytes{}, {4}, {}}, sample);
+        const auto wanted = decode_ok(plain).rgba8;
+        constexpr std::ptrdiff_t kHeader = 33;  // bytes
+        Bytes empty, many, large;
+        append_chunk(empty, "eXIf", {});
+        for (int i = 0; i < 3000; ++i) append_chunk(many, "tEXt", to_bytes(std::string_view("k\0v", 3)));
+        append_chunk(large, "tEXt", Bytes(std::size_t{20} << 20, std::byte{65}));
+        for (const Bytes& notes : {empty, many, large}) {
+            Bytes file = plain;
+            file.insert(file.begin() + kHeader, notes.begin(), notes.end());
+            CHECK(decode_ok(file).rgba8 == wanted);
+        }
+    }
+}
+
 TEST_CASE("png: 16 bits are kept when asked for", "[io]") {
     const auto sample = [](std::uint32_t x, std::uint32_t y, int c) { return noise(x, y, c) & 0xFFFFu; };
     const Bytes file = make_png({3, 2, 16, 6, false, {}, {}}, sample);

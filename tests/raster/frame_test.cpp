@@ -339,6 +339,9 @@ TEST_CASE("frame: an empty scene is background, with a warning", "[raster][frame
         settings.shading.accuracy = accuracy;
         CHECK(draw(pane.scene, settings).report.warnings.empty());
     }
+    Builder clear;
+    clear.add(quad(-1, -1, 1, 1, 0), {1, 1, 1, 0}, AlphaMode::blend);
+    CHECK(nothing(draw(clear.scene, settings).report));
 }
 
 TEST_CASE("frame: triangles with a corner that is not finite are dropped and counted", "[raster][frame]") {

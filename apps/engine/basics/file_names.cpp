@@ -2,8 +2,8 @@
 
 #include "apps/engine/basics/spelling.hpp"
 #include "apps/io/files/text.hpp"
-#include "apps/io/pictures/picture_reader.hpp"
 #include "apps/io/models/formats.hpp"
+#include "apps/io/pictures/picture_reader.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/handles.hpp"

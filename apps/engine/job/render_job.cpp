@@ -147,12 +147,15 @@ void warn_of_left_out(RenderJob& job) {
     const NameOfInstance name_of = names_of(job.source.parts);
     std::vector<std::string> named;
     std::set<std::pair<int, raster::LeftOutFor>> noted;
-    for (const auto& [instance, reason, partly] : job.prepared->data().framed_part().left_out) {
+    const raster::FramedPart& framed = job.prepared->data().framed_part();
+    std::set<int> seen;  // parts
+    for (const int instance : framed.instances) seen.insert(job.source.parts->of_instance(static_cast<std::size_t>(instance)));
+    for (const auto& [instance, reason, partly] : framed.left_out) {
         if (reason != raster::LeftOutFor::far && reason != raster::LeftOutFor::shell) continue;
         const int part = job.source.parts->of_instance(static_cast<std::size_t>(instance));
         if (part >= 0 && !noted.emplace(part, reason).second) continue;
         const std::string name = name_of(static_cast<std::size_t>(instance));
-        named.push_back(fmt::format("{}{}, {}", partly ? "a piece of " : "",
+        named.push_back(fmt::format("{}{}, {}", partly || seen.count(part) > 0 ? "a piece of " : "",
                                     name.empty() ? fmt::format("part {}", part + 1) : "'" + io::printable(name) + "'",
                                     reason == raster::LeftOutFor::far ? "far from all else" : "around all else"));
     }

@@ -185,6 +185,32 @@ std::vector<std::byte> with_end(std::span<const std::byte> file) {
     return {};
 }
 
+/// The file without the chunks before its pixels that say nothing of them, if they are so many, so large or so empty that the library
+/// refuses them; nothing for others.
+std::vector<std::byte> without_notes(std::span<const std::byte> file) {
+    constexpr std::size_t kSignature = 8, kChunk = 12, kManyNotes = 256, kLargeNote = std::size_t{1} << 20;
+    const auto is = [&](std::size_t at, const char* type) { return std::memcmp(&file[at + 4], type, 4) == 0; };
+    std::vector<std::byte> out;
+    std::size_t notes = 0, at = kSignature, copied = 0;
+    bool refused = false;
+    while (at + kChunk <= file.size() && !is(at, "IDAT")) {
+        const auto number = [&](std::size_t i) { return std::to_integer<std::size_t>(file[i]); };
+        const std::size_t size = number(at) << 24 | number(at + 1) << 16 | number(at + 2) << 8 | number(at + 3);
+        if (size > file.size() - at - kChunk) return {};
+        constexpr std::byte kAncillary{0x20};
+        if ((file[at + 4] & kAncillary) != std::byte{0} && !is(at, "tRNS")) {
+            ++notes;
+            refused |= size == 0 || size > kLargeNote;
+            out.insert(out.end(), file.begin() + static_cast<std::ptrdiff_t>(copied), file.begin() + static_cast<std::ptrdiff_t>(at));
+            copied = at + size + kChunk;
+        }
+        at += size + kChunk;
+    }
+    if (!refused && notes <= kManyNotes) return {};
+    out.insert(out.end(), file.begin() + static_cast<std::ptrdiff_t>(copied), file.end());
+    return out;
+}
+
 }  // namespace
 
 Result<ImageHeader> read_png_header(std::span<const std::byte> file, const ImageLimits& limits) {
@@ -195,6 +221,8 @@ Result<ImageHeader> read_png_header(std::span<const std::byte> file, const Image
 }
 
 Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits, RowSink& sink) {
+    const std::vector<std::byte> plain = without_notes(file);
+    if (!plain.empty()) file = plain;
     const std::vector<std::byte> whole = limits.keep_damaged ? with_end(file) : std::vector<std::byte>();
     if (!whole.empty()) file = whole;
     const auto png = open_for_pixels(file, limits);
@@ -206,6 +234,8 @@ Result<bool> decode_png_rows(std::span<const std::byte> file, const ImageLimits&
 }
 
 Result<DecodedImage> decode_png(std::span<const std::byte> file, const ImageLimits& limits, bool keep_16_bits) {
+    const std::vector<std::byte> plain = without_notes(file);
+    if (!plain.empty()) file = plain;
     const auto png = open_for_pixels(file, limits);
     if (!png) return tl::unexpected(png.error());
     const spng_ihdr& header = png->header;
