@@ -163,14 +163,16 @@ void PictureTile::shade_layers(FragmentList& list) {
         scratch_.layers->is_shown.resize(scratch_.layers->fragments.size());
     }
     const float exposure = exposure_of(list.material);
+    bool seen = transmits_;
     for (int l = 0; l < list.count; ++l) {
         const Vec4f light = light_of(scratch_.block, l, exposure);
         const auto fragment = static_cast<std::size_t>(list.samples[l]);
         if (shown) scratch_.layers->is_shown[fragment] = 1;
         scratch_.layers->light[fragment] = light;
-        counts_.layers_seen += static_cast<std::uint64_t>(light.w > 0.0f || transmits_);
+        seen |= light.w > 0.0f;
         if (transmits_) scratch_.layers->keep[fragment] = keep_of(list.material, l, light);
     }
+    counts_.layers_seen += seen ? 1 : 0;
     list.count = 0;
 }
 

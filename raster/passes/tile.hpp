@@ -27,7 +27,7 @@ struct TilePass {
 /// Counts of a tile; summed over the view.
 struct TileCounts {
     std::uint64_t pixels_visible = 0, fragments_shaded = 0, nan_pixels = 0;
-    std::uint64_t layers_seen = 0;  ///< fragments of layers that are not clear
+    std::uint64_t layers_seen = 0;  ///< lists of fragments of layers that are not all clear
     WorkCounts work;
 
     TileCounts& operator+=(const TileCounts& other) {

@@ -10,6 +10,4 @@ const ShadeKernels& shade_kernels(Isa isa) {
     HALFLIT_RETURN_TABLE_OF(isa, shade_kernels)
 }
 
-const ShadeKernels& usual_kernels() { return shade_kernels(default_isa().value_or(Isa::scalar)); }
-
 }  // namespace halflit::shading

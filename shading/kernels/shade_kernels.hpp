@@ -92,6 +92,6 @@ struct ShadeKernels {
 
 [[nodiscard]] const ShadeKernels& shade_kernels(Isa isa);
 /// Those of default_isa(), for what is made before a frame is drawn.
-[[nodiscard]] const ShadeKernels& usual_kernels();
+[[nodiscard]] inline const ShadeKernels& usual_kernels() { return shade_kernels(default_isa().value_or(Isa::scalar)); }
 
 }  // namespace halflit::shading

@@ -190,6 +190,7 @@ std::vector<std::byte> with_end(std::span<const std::byte> file) {
 std::vector<std::byte> without_notes(std::span<const std::byte> file) {
     constexpr std::size_t kSignature = 8, kChunk = 12, kManyNotes = 256, kLargeNote = std::size_t{1} << 20;
     const auto is = [&](std::size_t at, const char* type) { return std::memcmp(&file[at + 4], type, 4) == 0; };
+    if (file.size() < kSignature + kChunk || !is(kSignature, "IHDR")) return {};
     std::vector<std::byte> out;
     std::size_t notes = 0, at = kSignature, copied = 0;
     bool refused = false;
