@@ -36,7 +36,8 @@ Json head_of(const DiffOptions& options) {
 
 Result<int> run_files(const DiffOptions& options) {
     for (const std::string& path : {options.a, options.b})
-        if (is_model_name(path) && is_file(path)) return fail(ErrorCode::usage, printable(path) + ": is a model: halflit compare shows how models differ");
+        if (is_model_name(path) && is_file(options.a) && is_file(options.b))
+            return fail(ErrorCode::usage, printable(path) + ": is a model: halflit compare shows how models differ");
     if (!options.output.empty()) {
         const auto format = output_format_of(options.output);
         if (!format) return tl::unexpected(format.error());

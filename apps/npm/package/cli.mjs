@@ -195,7 +195,7 @@ async function main(words) {
   if (line.help) return print(help(line.command));
   if (line.version) return print(`halflit ${version} (pixel_epoch ${pixelEpoch}, WebAssembly)\n`);
   const model = line.words[0] ?? "demo";
-  if (is_folder(model)) throw usage(`${model}: is a folder${holds_model(model) ? ", expected one model" : " without models"}`);
+  if (is_folder(model)) throw usage(`${model}: is a folder${holds_model(model) ? ", expected one model" : " without models; folders in it are not looked into"}`);
   const at = line.passed.lastIndexOf("--env");
   const environment = at >= 0 && !kNamedSkies.includes(line.passed[at + 1]) ? line.passed.splice(at, 2)[1] : null;
   try {
