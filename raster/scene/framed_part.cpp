@@ -176,11 +176,11 @@ WideBox box_of(const std::vector<Placed>& placed) {
 /// Removes what is_out(one) is true of.
 template <class Test>
 void leave_out(std::vector<Placed>& placed, FramedPart& part, LeftOutFor reason, const Test& is_out) {
-    for (const Placed& one : placed) {
-        if (!is_out(one)) continue;
-        std::erase_if(part.left_out, [&](const LeftOut& other) { return other.instance == one.instance; });  // a part of it
-        part.left_out.push_back({one.instance, reason});
-    }
+    std::vector<int> out;  // in order, as what is placed
+    for (const Placed& one : placed)
+        if (is_out(one)) out.push_back(one.instance);
+    std::erase_if(part.left_out, [&](const LeftOut& piece) { return std::binary_search(out.begin(), out.end(), piece.instance); });
+    for (const int instance : out) part.left_out.push_back({instance, reason});
     std::erase_if(placed, is_out);
 }
 

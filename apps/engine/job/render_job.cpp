@@ -148,11 +148,17 @@ void warn_of_left_out(RenderJob& job) {
     std::vector<std::string> named;
     std::set<std::pair<int, raster::LeftOutFor>> noted;
     const raster::FramedPart& framed = job.prepared->data().framed_part();
-    std::set<int> seen;  // parts
-    for (const int instance : framed.instances) seen.insert(job.source.parts->of_instance(static_cast<std::size_t>(instance)));
+    const auto is_told = [](raster::LeftOutFor reason) { return reason == raster::LeftOutFor::far || reason == raster::LeftOutFor::shell; };
+    const auto part_of = [&](int instance) { return job.source.parts->of_instance(static_cast<std::size_t>(instance)); };
+    std::set<int> told, seen;  // parts; those of them of which a piece is framed
+    for (const raster::LeftOut& one : framed.left_out)
+        if (is_told(one.reason)) told.insert(part_of(one.instance));
+    if (told.empty()) return;
+    for (const int instance : framed.instances)
+        if (told.count(part_of(instance)) > 0) seen.insert(part_of(instance));
     for (const auto& [instance, reason, partly] : framed.left_out) {
-        if (reason != raster::LeftOutFor::far && reason != raster::LeftOutFor::shell) continue;
-        const int part = job.source.parts->of_instance(static_cast<std::size_t>(instance));
+        if (!is_told(reason)) continue;
+        const int part = part_of(instance);
         if (part >= 0 && !noted.emplace(part, reason).second) continue;
         const std::string name = name_of(static_cast<std::size_t>(instance));
         named.push_back(fmt::format("{}{}, {}", partly || seen.count(part) > 0 ? "a piece of " : "",
