@@ -160,13 +160,10 @@ Result<DecodedImage> decode_at_once(const Opened& png, bool keep_16_bits) {
 
 /// A file that is cut off within its pixels, with an end; nothing for others. Decoders read no chunk that is not whole.
 std::vector<std::byte> with_end(std::span<const std::byte> file) {
-    constexpr std::size_t kSignature = 8, kChunk = 12;  // bytes; of a chunk's length, type and checksum
-    for (std::size_t at = kSignature; at + kChunk < file.size();) {
-        const auto number = [&](std::size_t i) { return std::to_integer<std::uint32_t>(file[i]); };
-        const std::size_t size = number(at) << 24 | number(at + 1) << 16 | number(at + 2) << 8 | number(at + 3),
-                          left = file.size() - at - 8, data = std::min(size, left);
+    for (std::size_t at = kPngSignature; at + kPngChunkFrame < file.size();) {
+        const std::size_t size = png_number(&file[at]), left = file.size() - at - 8, data = std::min(size, left);
         if (size + 4 <= left) {
-            at += size + kChunk;
+            at += size + kPngChunkFrame;
             continue;
         }
         if (std::memcmp(&file[at + 4], "IDAT", 4) != 0) return {};
@@ -188,24 +185,23 @@ std::vector<std::byte> with_end(std::span<const std::byte> file) {
 /// The file without the chunks before its pixels that say nothing of them, if they are so many, so large or so empty that the library
 /// refuses them; nothing for others.
 std::vector<std::byte> without_notes(std::span<const std::byte> file) {
-    constexpr std::size_t kSignature = 8, kChunk = 12, kManyNotes = 256, kLargeNote = std::size_t{1} << 20;
+    constexpr std::size_t kManyNotes = 256, kLargeNote = std::size_t{1} << 20;
     const auto is = [&](std::size_t at, const char* type) { return std::memcmp(&file[at + 4], type, 4) == 0; };
-    if (file.size() < kSignature + kChunk || !is(kSignature, "IHDR")) return {};
+    if (file.size() < kPngSignature + kPngChunkFrame || !is(kPngSignature, "IHDR")) return {};
     std::vector<std::byte> out;
-    std::size_t notes = 0, at = kSignature, copied = 0;
+    std::size_t notes = 0, at = kPngSignature, copied = 0;
     bool refused = false;
-    while (at + kChunk <= file.size() && !is(at, "IDAT")) {
-        const auto number = [&](std::size_t i) { return std::to_integer<std::size_t>(file[i]); };
-        const std::size_t size = number(at) << 24 | number(at + 1) << 16 | number(at + 2) << 8 | number(at + 3);
-        if (size > file.size() - at - kChunk) return {};
+    while (at + kPngChunkFrame <= file.size() && !is(at, "IDAT")) {
+        const std::size_t size = png_number(&file[at]);
+        if (size > file.size() - at - kPngChunkFrame) return {};
         constexpr std::byte kAncillary{0x20};
         if ((file[at + 4] & kAncillary) != std::byte{0} && !is(at, "tRNS")) {
             ++notes;
             refused |= size == 0 || size > kLargeNote;
             out.insert(out.end(), file.begin() + static_cast<std::ptrdiff_t>(copied), file.begin() + static_cast<std::ptrdiff_t>(at));
-            copied = at + size + kChunk;
+            copied = at + size + kPngChunkFrame;
         }
-        at += size + kChunk;
+        at += size + kPngChunkFrame;
     }
     if (!refused && notes <= kManyNotes) return {};
     out.insert(out.end(), file.begin() + static_cast<std::ptrdiff_t>(copied), file.end());

@@ -14,16 +14,9 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr std::size_t kSignature = 8, kChunkFrame = 12;       // bytes; the frame is a chunk's length, type and checksum
 constexpr std::size_t kMostInflated = std::size_t{64} << 20;  // larger pictures are decompressed row by row, in less memory
 constexpr std::size_t kReadPastRow = 4;                       // see FilteredRow
 constexpr std::uint32_t kIdat = 0x49444154, kIend = 0x49454E44;
-
-std::uint32_t big_endian(const std::byte* at) {
-    std::uint32_t value = 0;
-    for (int i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint32_t>(at[i]);
-    return value;
-}
 
 /// Chunks that say nothing of the pixels and may follow them: tEXt, zTXt, iTXt, tIME, eXIf.
 bool may_follow_pixels(std::uint32_t type) {
@@ -36,11 +29,11 @@ std::vector<std::byte> compressed_data(std::span<const std::byte> file) {
     std::vector<std::byte> data;
     data.reserve(file.size());
     bool ended = false;
-    for (std::size_t at = kSignature; file.size() - at >= kChunkFrame;) {
-        const std::uint32_t size = big_endian(&file[at]), type = big_endian(&file[at + 4]);
-        if (size > file.size() - at - kChunkFrame) return {};
+    for (std::size_t at = kPngSignature; file.size() - at >= kPngChunkFrame;) {
+        const std::uint32_t size = png_number(&file[at]), type = png_number(&file[at + 4]);
+        if (size > file.size() - at - kPngChunkFrame) return {};
         const std::byte* const body = &file[at] + 8;
-        const bool is_sound = libdeflate_crc32(0, body - 4, size + std::size_t{4}) == big_endian(body + size);
+        const bool is_sound = libdeflate_crc32(0, body - 4, size + std::size_t{4}) == png_number(body + size);
         if (type == kIdat) {
             if (!is_sound || size == 0 || ended) return {};
             data.insert(data.end(), body, body + size);
@@ -50,7 +43,7 @@ std::vector<std::byte> compressed_data(std::span<const std::byte> file) {
             if (!is_sound || !may_follow_pixels(type)) return {};
             ended = true;
         }
-        at += kChunkFrame + size;
+        at += kPngChunkFrame + size;
     }
     return {};
 }
