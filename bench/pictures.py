@@ -1,8 +1,8 @@
 """Time of whole processes, from exec to a new file, by default flags: the command that people run. A Markdown table.
 
-usage: ./dev bench --pictures MODEL.. [--against PROGRAM] [--sizes 64,512,1280x720] [--threads 1,2] [--rounds 11] [--batch N] [-- FLAGS]
+usage: ./dev bench --pictures MODEL.. [--against PROGRAM] [--sizes 64,512,1280x720] [--threads 1,2] [--rounds 11] [--batch] [-- FLAGS]
   --against PROGRAM   another build's program, in turn with this one: ratios of this one to it
-  --batch N           one process that draws the models over and over, N pictures in all, instead of a process a picture
+  --batch             one process that draws all models, instead of a process a picture
   FLAGS: more flags of 'halflit render', for both
 
 CPU is the processor's time of the process, user and system; wall is from its start to its end. Of each command's rounds the lower
@@ -63,13 +63,11 @@ def main():
     parser.add_argument("--sizes", default="64,512,1280x720")
     parser.add_argument("--threads", default="1,2")
     parser.add_argument("--rounds", type=int, default=11)
-    parser.add_argument("--batch", type=int, default=0)
+    parser.add_argument("--batch", action="store_true")
     options = parser.parse_args(arguments)
     programs = [sys.argv[1]] + ([options.against] if options.against else [])
 
-    jobs = [[model] for model in options.models]
-    if options.batch > 0:
-        jobs = [list(itertools.islice(itertools.cycle(options.models), options.batch))]
+    jobs = [options.models] if options.batch else [[model] for model in options.models]
     print("| pictures | size | threads | CPU ms | wall ms |" + (" CPU ratio | wall ratio |" if options.against else ""))
     print("|---|---|---|---|---|" + ("---|---|" if options.against else ""))
     for size, threads in itertools.product(options.sizes.split(","), options.threads.split(",")):
