@@ -79,9 +79,16 @@ endif()
 # The program. HALFLIT_BUNDLE: with the libraries that a bare system lacks beside it.
 option(HALFLIT_BUNDLE "Install the shared libraries that the program needs beside it" OFF)
 if(TARGET halflit)
+    set(program_targets halflit)
+    if(TARGET halflit_codecs)
+        list(APPEND program_targets halflit_codecs)
+    endif()
     if(HALFLIT_BUNDLE)
         set_target_properties(halflit PROPERTIES INSTALL_RPATH "${HALFLIT_ORIGIN}/../${CMAKE_INSTALL_LIBDIR}/halflit")
-        install(TARGETS halflit
+        if(TARGET halflit_codecs)
+            set_target_properties(halflit_codecs PROPERTIES INSTALL_RPATH "${HALFLIT_ORIGIN}")
+        endif()
+        install(TARGETS ${program_targets}
             RUNTIME_DEPENDENCIES
                 PRE_EXCLUDE_REGEXES "^lib(c|m|dl|pthread|rt|stdc\\+\\+|gcc_s)\\.so" "^ld-linux"
                 DIRECTORIES /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}
@@ -96,7 +103,9 @@ if(TARGET halflit)
                 \"-DLIBRARIES=${libraries}\" -P \"${PROJECT_SOURCE_DIR}/cmake/licences.cmake\"
                 COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
     else()
-        install(TARGETS halflit RUNTIME COMPONENT program)
+        install(TARGETS ${program_targets}
+            RUNTIME COMPONENT program
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/halflit COMPONENT program)
     endif()
     # File managers show models as their pictures.
     install(FILES ${PROJECT_SOURCE_DIR}/cmake/desktop/halflit.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers

@@ -1,6 +1,6 @@
 # Sources that read models and need no library but fmt. The page (apps/web) compiles them too.
-set(HALFLIT_COMPRESSION_SOURCES gltf/codecs/draco_mesh.cpp gltf/codecs/draco.cpp gltf/codecs/meshopt.cpp gltf/codecs/meshopt_filter.cpp
-    gltf/codecs/meshopt_vertices.cpp)
+set(HALFLIT_COMPRESSION_SOURCES codecs/codec_table.cpp codecs/draco_library.cpp codecs/exr_library.cpp codecs/linked_codecs.cpp
+    gltf/codecs/draco.cpp gltf/codecs/meshopt.cpp gltf/codecs/meshopt_filter.cpp gltf/codecs/meshopt_vertices.cpp)
 # Groups of sources that are compiled together, for halflit_unity.
 set(HALFLIT_MODEL_SOURCES
     GROUP gltf/animation/animation.cpp gltf/animation/motion.cpp gltf/animation/track.cpp gltf/build/deform.cpp

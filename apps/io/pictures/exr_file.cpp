@@ -1,30 +1,13 @@
 #include "apps/io/pictures/exr_file.hpp"
 
+#include "apps/io/codecs/codec_libraries.hpp"
 #include "apps/io/files/text.hpp"
 #include "apps/io/pictures/exr_header.hpp"
 #include "halflit/image.hpp"
 #include "sh/time_limit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <exception>
 #include <iterator>
-#include <new>
-#include <stdexcept>
-#include <string>
-#include <utility>
-
-#if HALFLIT_HAS_OPENEXR
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfInputFile.h>
-#include <ImfIO.h>
-#include <ImfOutputFile.h>
-#endif
 
 namespace halflit {
 
@@ -32,168 +15,46 @@ bool has_exr() { return HALFLIT_HAS_OPENEXR != 0; }
 
 namespace io {
 
+namespace {
+
+/// The functions of OpenEXR.
+Result<const detail::CodecLibraries*> open_exr() {
+    if (!has_exr()) return fail(ErrorCode::usage, "EXR files need the library OpenEXR, which this build lacks");
+    return detail::codec_libraries();
+}
+
+/// Messages of the library may have several lines, and words of the file.
+template <class T>
+Result<T> in_one_line(Result<T> result) {
+    if (result) return result;
+    std::replace(result.error().message.begin(), result.error().message.end(), '\n', ' ');
+    return fail(result.error().code, printable(result.error().message));
+}
+
+}  // namespace
+
 bool is_exr(std::span<const std::byte> file) {
     constexpr std::byte kMark[] = {std::byte{0x76}, std::byte{0x2f}, std::byte{0x31}, std::byte{0x01}};
     return file.size() >= 4 && std::equal(std::begin(kMark), std::end(kMark), file.begin());
 }
 
-#if HALFLIT_HAS_OPENEXR
-
-namespace {
-
-constexpr float kLargestHalf = 65504.0f;
-
-/// A file in memory, as the library reads it.
-class Reading : public Imf::IStream {
-public:
-    explicit Reading(std::span<const std::byte> file) : IStream("the file"), file_(file) {}
-    bool read(char to[], int count) override {
-        if (count < 0 || static_cast<std::size_t>(count) > file_.size() - at_) throw std::runtime_error("the file ends within the pixels");
-        if (count > 0) std::memcpy(to, file_.data() + at_, static_cast<std::size_t>(count));
-        at_ += static_cast<std::size_t>(count);
-        return at_ < file_.size();
-    }
-    std::uint64_t tellg() override { return at_; }
-    void seekg(std::uint64_t position) override {
-        if (position > file_.size()) throw std::runtime_error("the file ends within the pixels");
-        at_ = static_cast<std::size_t>(position);
-    }
-
-private:
-    std::span<const std::byte> file_;
-    std::size_t at_ = 0;
-};
-
-/// A file in memory, as the library writes it.
-class Writing : public Imf::OStream {
-public:
-    Writing() : OStream("the file") {}
-    void write(const char from[], int count) override {
-        const std::size_t end = at_ + static_cast<std::size_t>(count);
-        if (bytes.size() < end) bytes.resize(end);
-        std::memcpy(bytes.data() + at_, from, static_cast<std::size_t>(count));
-        at_ = end;
-    }
-    std::uint64_t tellp() override { return at_; }
-    void seekp(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
-
-    std::vector<std::uint8_t> bytes;
-
-private:
-    std::size_t at_ = 0;
-};
-
-/// Names of the red, green and blue channel; all the same for grey.
-Result<std::array<std::string, 3>> colour_channels(const Imf::ChannelList& list) {
-    const bool rgb = list.findChannel("R") != nullptr && list.findChannel("G") != nullptr && list.findChannel("B") != nullptr;
-    auto second = list.begin();
-    if (second != list.end()) ++second;
-    const bool grey = !rgb && list.begin() != list.end() && second == list.end();
-    std::array<std::string, 3> names{"R", "G", "B"};
-    if (grey) names.fill(list.begin().name());
-    if (!rgb && !grey) {
-        std::string found;
-        for (auto channel = list.begin(); channel != list.end() && found.size() < 60; ++channel)
-            found += std::string(found.empty() ? "" : " ") + channel.name();
-        return fail(ErrorCode::bad_input, fmt::format("expected the channels R G B, or one alone, found {}", printable(found, 80)));
-    }
-    for (const std::string& name : names)
-        if (const Imf::Channel& channel = *list.findChannel(name); channel.xSampling != 1 || channel.ySampling != 1)
-            return fail(ErrorCode::bad_input, fmt::format("channel {}: expected a value for each pixel", name));
-    return names;
-}
-
-Result<FloatImage> read_pixels(Imf::InputFile& file, int width, int height) {
-    const Imf::ChannelList& list = file.header().channels();
-    const auto names = colour_channels(list);
-    if (!names) return tl::unexpected(names.error());
-    const auto window = file.header().dataWindow();
-    const auto columns = static_cast<std::size_t>(width);
-    const bool grey = (*names)[0] == (*names)[1];
-    std::vector<float> row(3 * columns);
-    // The library adds (x, y) of the window to the base; y has no part in it, so that each row lies in `row`.
-    Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < (grey ? 1u : 3u); ++c) {
-        const auto base = reinterpret_cast<std::uintptr_t>(row.data() + c) - static_cast<std::uintptr_t>(std::int64_t{window.min.x} * 12);
-        frame.insert((*names)[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), 12, 0));
-    }
-    file.setFrameBuffer(frame);
-    bool half[3];
-    for (std::size_t c = 0; c < 3; ++c) half[c] = list.findChannel((*names)[c])->type == Imf::HALF;
-    FloatImage image{width, height, {}};  // grows with what has been read
-    for (int y = window.min.y; y <= window.max.y; ++y) {
-        check_time();
-        if (y - window.min.y == height / 8) image.rgb.reserve(3 * columns * static_cast<std::size_t>(height));
-        file.readPixels(y, y);
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            const std::size_t c = i % 3;
-            const float value = light_of(row[grey ? i - c : i]);
-            image.rgb.push_back(half[c] ? (value > kLargestHalf ? kLargestHalf : value) : value);
-        }
-    }
-    if (auto ok = check_numbers(image); !ok) return tl::unexpected(ok.error());
+Result<FloatImage> decode_exr(std::span<const std::byte> file, const FloatImageLimits& limits) {
+    const auto library = open_exr();
+    if (!library) return tl::unexpected(library.error());
+    const auto header = detail::read_exr_header(file, limits);
+    if (!header) return tl::unexpected(header.error());
+    Result<FloatImage> image = in_one_line(
+        (*library)->decode_exr(file, static_cast<int>(header->width), static_cast<int>(header->height), [] { check_time(); }));
+    if (!image) return image;
+    if (auto ok = check_numbers(*image); !ok) return tl::unexpected(ok.error());
     return image;
 }
 
-}  // namespace
-
-Result<FloatImage> decode_exr(std::span<const std::byte> file, const FloatImageLimits& limits) {
-    const auto header = detail::read_exr_header(file, limits);
-    if (!header) return tl::unexpected(header.error());
-    try {
-        Reading stream(file);
-        Imf::InputFile input(stream, 0);
-        const auto window = input.header().dataWindow();
-        if (1LL + window.max.x - window.min.x != header->width || 1LL + window.max.y - window.min.y != header->height)
-            return fail(ErrorCode::bad_input, "header: two data windows");
-        return read_pixels(input, static_cast<int>(header->width), static_cast<int>(header->height));
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        std::string message = error.what();
-        std::replace(message.begin(), message.end(), '\n', ' ');
-        return fail(ErrorCode::bad_input, printable(message));
-    }
-}
-
 Result<std::vector<std::uint8_t>> encode_exr(int width, int height, std::span<const ExrChannel> channels) {
-    try {
-        Imf::Header header(width, height);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        Imf::FrameBuffer frame;
-        for (const ExrChannel& channel : channels) {
-            header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
-            const std::size_t step = sizeof(float) * static_cast<std::size_t>(channel.step);
-            // The library takes memory to read from as char*, and does not write to it.
-            auto* const base = reinterpret_cast<char*>(const_cast<float*>(channel.data));
-            frame.insert(channel.name, Imf::Slice(Imf::FLOAT, base, step, step * static_cast<std::size_t>(width)));
-        }
-        Writing stream;
-        {
-            Imf::OutputFile output(stream, header, 0);
-            output.setFrameBuffer(frame);
-            output.writePixels(height);
-        }  // the table of offsets is written at the end
-        return std::move(stream.bytes);
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        return fail(ErrorCode::internal, "EXR: " + printable(error.what()));
-    }
+    const auto library = open_exr();
+    if (!library) return tl::unexpected(library.error());
+    return in_one_line((*library)->encode_exr(width, height, channels));
 }
-
-#else
-
-namespace {
-
-tl::unexpected<Error> no_library() { return fail(ErrorCode::usage, "EXR files need the library OpenEXR, which this build lacks"); }
-
-}  // namespace
-
-Result<FloatImage> decode_exr(std::span<const std::byte>, const FloatImageLimits&) { return no_library(); }
-Result<std::vector<std::uint8_t>> encode_exr(int, int, std::span<const ExrChannel>) { return no_library(); }
-
-#endif
 
 }  // namespace io
 }  // namespace halflit

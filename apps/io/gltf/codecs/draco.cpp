@@ -1,6 +1,7 @@
 #include "apps/io/gltf/codecs/draco.hpp"
 
-#include "apps/io/gltf/codecs/draco_mesh.hpp"
+#include "apps/io/codecs/codec_libraries.hpp"
+#include "apps/io/files/optional_libraries.hpp"
 #include "apps/io/gltf/file/accessor.hpp"
 #include "apps/io/gltf/file/indices.hpp"
 #include "sh/time_limit.hpp"
@@ -11,7 +12,20 @@
 #include <optional>
 #include <utility>
 
+namespace halflit::io {
+
+bool has_draco() { return HALFLIT_HAS_DRACO != 0; }
+
+}  // namespace halflit::io
+
 namespace halflit::io::detail {
+
+Result<std::unique_ptr<DracoMesh>> DracoMesh::decode(std::span<const std::byte> stream, std::uint64_t memory) {
+    if (!has_draco()) return fail(ErrorCode::bad_input, "Draco meshes need the library Draco, which this build lacks");
+    const auto libraries = codec_libraries();
+    if (!libraries) return tl::unexpected(libraries.error());
+    return (*libraries)->decode_draco(stream, memory);
+}
 
 namespace {
 
@@ -42,7 +56,7 @@ public:
         if (primitive.mode < static_cast<int>(file::Mode::triangles))
             refuse(where + ".mode", fmt::format("expected triangles, which Draco compresses, found mode {}", primitive.mode));
         if (primitive.indices >= 0 && mode == file::Mode::triangles)
-            check_count(where + ".indices", primitive.indices, 3 * mesh_.triangles());
+            check_count(where + ".indices", primitive.indices, 3 * mesh_->triangles());
         const auto [indices, is_new] = made_.try_emplace({primitive.indices, -1}, -1);
         if (is_new) indices->second = add_indices(primitive.indices);
         primitive.indices = indices->second;
@@ -52,7 +66,7 @@ public:
             if (id < 0) continue;
             const std::string at = fmt::format("{}.attributes.{}", where, name);
             if (!document_.used.has(Target::accessors, static_cast<std::size_t>(accessor))) continue;
-            check_count(at, accessor, mesh_.vertices());
+            check_count(at, accessor, mesh_->vertices());
             const auto [values, first] = made_.try_emplace({accessor, id}, -1);
             if (first) values->second = add_values(accessor, id, at);
             accessor = values->second;
@@ -60,12 +74,12 @@ public:
     }
 
 private:
-    DracoMesh open(int view) {
+    std::unique_ptr<DracoMesh> open(int view) {
         check_time();
         constexpr std::uint64_t kTables = 8 << 10;  // bytes that stand for the time that the tables of a small stream take
         document_.geometry.take(kTables);
-        DracoMesh mesh = take(DracoMesh::decode(document_.view_data(view), document_.geometry.left()), where_);
-        document_.geometry.take(kTables * mesh.attributes());
+        auto mesh = take(DracoMesh::decode(document_.view_data(view), document_.geometry.left()), where_);
+        document_.geometry.take(kTables * mesh->attributes());
         return mesh;
     }
 
@@ -100,20 +114,20 @@ private:
     int add_indices(int stands_for) {
         file::Accessor accessor;
         accessor.component_type = static_cast<int>(Component::u32);
-        accessor.count = 3 * mesh_.triangles();
+        accessor.count = 3 * mesh_->triangles();
         document_.geometry.take(4 * accessor.count);
-        return append(accessor, stands_for, mesh_.indices(), 0);
+        return append(accessor, stands_for, mesh_->indices(), 0);
     }
 
     int add_values(int index, int id, const std::string& where) {
         file::Accessor accessor = document_.file.accessors[static_cast<std::size_t>(index)];
-        accessor.count = mesh_.vertices();
+        accessor.count = mesh_->vertices();
         DracoRequest request{static_cast<std::uint32_t>(id), accessor.component_type, accessor.components, 0, accessor.normalized};
         const auto size = size_of(static_cast<Component>(accessor.component_type)) * static_cast<std::size_t>(accessor.components);
         request.stride = (size + 3) / 4 * 4;  // vertices lie at multiples of 4
-        document_.geometry.take(std::uint64_t{request.stride} * mesh_.vertices());
+        document_.geometry.take(std::uint64_t{request.stride} * mesh_->vertices());
         bool converted = false;
-        std::vector<std::byte> values = take(mesh_.values(request, document_.options.strict ? nullptr : &converted), where);
+        std::vector<std::byte> values = take(mesh_->values(request, document_.options.strict ? nullptr : &converted), where);
         if (converted)
             document_.warn(fmt::format("{}: the Draco stream has floats, which become integers of component type {} as accessors[{}] has",
                                        where, accessor.component_type, index));
@@ -122,7 +136,7 @@ private:
 
     Document& document_;
     std::string where_;
-    DracoMesh mesh_;
+    std::unique_ptr<DracoMesh> mesh_;
     std::map<std::pair<int, int>, int> made_;  // new accessors, by accessor and attribute; attribute -1: indices
 };
 

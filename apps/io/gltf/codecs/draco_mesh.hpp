@@ -25,25 +25,21 @@ struct DracoRequest {
 
 class DracoMesh {
 public:
-    /// Decodes a stream of version 2.2. Fails (bad_input) for damaged ones, and (limit) for one that takes more than about `memory` bytes,
-    /// before they are taken.
-    static Result<DracoMesh> decode(std::span<const std::byte> stream, std::uint64_t memory);
-    DracoMesh(DracoMesh&&) noexcept;
-    DracoMesh& operator=(DracoMesh&&) noexcept;
-    ~DracoMesh();
+    /// Decodes a stream of version 2.2. Fails (bad_input) for damaged ones and in a build without the library, and (limit) for one that takes
+    /// more than about `memory` bytes, before they are taken.
+    static Result<std::unique_ptr<DracoMesh>> decode(std::span<const std::byte> stream, std::uint64_t memory);
+    DracoMesh() = default;
+    DracoMesh(const DracoMesh&) = delete;
+    DracoMesh& operator=(const DracoMesh&) = delete;
+    virtual ~DracoMesh() = default;
 
-    [[nodiscard]] std::size_t vertices() const;
-    [[nodiscard]] std::size_t triangles() const;
-    [[nodiscard]] std::size_t attributes() const;
-    [[nodiscard]] std::vector<std::byte> indices() const;  ///< little-endian, 4 bytes each
+    [[nodiscard]] virtual std::size_t vertices() const = 0;
+    [[nodiscard]] virtual std::size_t triangles() const = 0;
+    [[nodiscard]] virtual std::size_t attributes() const = 0;
+    [[nodiscard]] virtual std::vector<std::byte> indices() const = 0;  ///< little-endian, 4 bytes each
     /// Values of all vertices, little-endian. Fails where the mesh lacks the attribute, or its type does not fit. converted: if not null,
     /// floats become the integers that are asked for, and it becomes true for that.
-    [[nodiscard]] Result<std::vector<std::byte>> values(const DracoRequest& request, bool* converted = nullptr) const;
-
-private:
-    struct Data;
-    explicit DracoMesh(std::unique_ptr<Data> data);
-    std::unique_ptr<Data> data_;
+    [[nodiscard]] virtual Result<std::vector<std::byte>> values(const DracoRequest& request, bool* converted) const = 0;
 };
 
 }  // namespace halflit::io::detail

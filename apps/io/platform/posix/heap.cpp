@@ -21,6 +21,7 @@ constexpr int kReserved = 128 << 20;          // bytes of addresses; what is not
 constexpr int kLargestInHeap = 32 << 20;      // the most that glibc allows; larger blocks are mapped one by one
 constexpr int kKeptFree = 1 << 30;            // the most free memory at the heap's end that is kept
 constexpr std::size_t kFirstBlock = 1 << 20;  // more than is left of the small heap of the program's start
+constexpr std::size_t kHeader = 32;           // more than glibc adds to a block
 constexpr std::uintptr_t kHugePage = 2 << 20;
 
 bool is_limited(int resource) {
@@ -41,7 +42,13 @@ bool set_up_heap() {
     mallopt(M_TOP_PAD, static_cast<int>(kFirstBlock));
     // Another allocator than glibc's leaves the heap as it is.
     const std::uintptr_t first = (before + kHugePage - 1) / kHugePage * kHugePage;
-    if (after > first) ::madvise(reinterpret_cast<void*>(first), after - first, MADV_HUGEPAGE);
+    if (after <= first) return true;
+    ::madvise(reinterpret_cast<void*>(first), after - first, MADV_HUGEPAGE);
+    // What lies before the first large page would be taken in pages of 4 kB, up to 512 of them: a block that nobody writes to covers it.
+    if (const auto at = reinterpret_cast<std::uintptr_t>(block); at < first && first - at > kHeader) {
+        void* volatile const gap = std::malloc(first - at - kHeader);
+        static_cast<void>(gap);
+    }
     return true;
 }
 

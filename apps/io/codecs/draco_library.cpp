@@ -1,5 +1,5 @@
-#include "apps/io/gltf/codecs/draco_mesh.hpp"
-#include "apps/io/files/optional_libraries.hpp"
+// The part of Draco meshes that calls the library. What it uses of halflit is in headers, so that it can lie in a module.
+#include "apps/io/codecs/codec_libraries.hpp"
 
 #include <fmt/format.h>
 
@@ -16,17 +16,8 @@
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
-#endif
-
-namespace halflit::io {
-
-bool has_draco() { return HALFLIT_HAS_DRACO != 0; }
-
-}  // namespace halflit::io
 
 namespace halflit::io::detail {
-
-#if HALFLIT_HAS_DRACO
 
 namespace {
 
@@ -170,59 +161,29 @@ bool store_all(const draco::PointAttribute& attribute, std::size_t vertices, con
     return true;
 }
 
-}  // namespace
+class Mesh final : public DracoMesh {
+public:
+    [[nodiscard]] std::size_t vertices() const override { return mesh.num_points(); }
+    [[nodiscard]] std::size_t triangles() const override { return mesh.num_faces(); }
+    [[nodiscard]] std::size_t attributes() const override { return static_cast<std::size_t>(mesh.num_attributes()); }
+    [[nodiscard]] std::vector<std::byte> indices() const override;
+    [[nodiscard]] Result<std::vector<std::byte>> values(const DracoRequest& request, bool* converted) const override;
 
-struct DracoMesh::Data {
     draco::Mesh mesh;
 };
 
-Result<DracoMesh> DracoMesh::decode(std::span<const std::byte> stream, std::uint64_t memory) {
-    const auto damaged = [](const std::string& what) { return fail(ErrorCode::bad_input, fmt::format("Draco: {}", what)); };
-    Allowance allowance{memory, {}};
-    try {
-        draco::DecoderBuffer buffer;
-        buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
-        draco::DecoderBuffer ahead = buffer;
-        draco::DracoHeader header;
-        if (const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&ahead, &header); !status.ok())
-            return damaged(status.error_msg_string());
-        if (header.version_major != 2 || header.version_minor != 2)
-            return damaged(fmt::format("expected a stream of version 2.2, found {}.{}", header.version_major, header.version_minor));
-        if (header.encoder_type != draco::TRIANGULAR_MESH) return damaged("expected a mesh of triangles, found a cloud of points");
-        auto data = std::make_unique<Data>();
-        const draco::DecoderOptions options = integer_options();
-        const auto run = [&](auto&& decoder) { return decoder.Decode(options, &buffer, &data->mesh); };
-        const draco::Status status = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING
-                                         ? run(Guarded<draco::MeshEdgebreakerDecoder>(allowance))
-                                     : header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING
-                                         ? run(Guarded<draco::MeshSequentialDecoder>(allowance))
-                                         : draco::Status(draco::Status::DRACO_ERROR, "unknown method of encoding");
-        if (allowance.error) return tl::unexpected(*std::move(allowance.error));
-        if (!status.ok()) return damaged(status.error_msg_string());
-        return DracoMesh(std::move(data));
-    } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::limit, "Draco: out of memory");
-    } catch (const std::exception&) {
-        return damaged("the stream is damaged");
-    }
-}
-
-std::size_t DracoMesh::vertices() const { return data_->mesh.num_points(); }
-std::size_t DracoMesh::triangles() const { return data_->mesh.num_faces(); }
-std::size_t DracoMesh::attributes() const { return static_cast<std::size_t>(data_->mesh.num_attributes()); }
-
-std::vector<std::byte> DracoMesh::indices() const {
+std::vector<std::byte> Mesh::indices() const {
     std::vector<std::byte> out(12 * triangles());
-    for (std::uint32_t t = 0; t < data_->mesh.num_faces(); ++t)
-        for (std::size_t c = 0; c < 3; ++c) store(out, 12 * t + 4 * c, data_->mesh.face(draco::FaceIndex(t))[c].value());
+    for (std::uint32_t t = 0; t < mesh.num_faces(); ++t)
+        for (std::size_t c = 0; c < 3; ++c) store(out, 12 * t + 4 * c, mesh.face(draco::FaceIndex(t))[c].value());
     return out;
 }
 
-Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest& request, bool* converted) const {
+Result<std::vector<std::byte>> Mesh::values(const DracoRequest& request, bool* converted) const {
     const auto wrong = [&](const std::string& what) {
         return fail(ErrorCode::bad_input, fmt::format("Draco: attribute {} {}", request.unique_id, what));
     };
-    const draco::PointAttribute* const attribute = data_->mesh.GetAttributeByUniqueId(request.unique_id);
+    const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(request.unique_id);
     if (attribute == nullptr) return wrong("is not in the stream");
     const FloatReader floats(*attribute);
     if (!floats.good()) return wrong("has a damaged transform");
@@ -277,24 +238,39 @@ Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest& request, bo
     return out;
 }
 
-#else
+}  // namespace
 
-struct DracoMesh::Data {};
-
-Result<DracoMesh> DracoMesh::decode(std::span<const std::byte>, std::uint64_t) {
-    return fail(ErrorCode::bad_input, "Draco meshes need the library Draco, which this build lacks");
+Result<std::unique_ptr<DracoMesh>> decode_draco_mesh(std::span<const std::byte> stream, std::uint64_t memory) {
+    const auto damaged = [](const std::string& what) { return fail(ErrorCode::bad_input, fmt::format("Draco: {}", what)); };
+    Allowance allowance{memory, {}};
+    try {
+        draco::DecoderBuffer buffer;
+        buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
+        draco::DecoderBuffer ahead = buffer;
+        draco::DracoHeader header;
+        if (const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&ahead, &header); !status.ok())
+            return damaged(status.error_msg_string());
+        if (header.version_major != 2 || header.version_minor != 2)
+            return damaged(fmt::format("expected a stream of version 2.2, found {}.{}", header.version_major, header.version_minor));
+        if (header.encoder_type != draco::TRIANGULAR_MESH) return damaged("expected a mesh of triangles, found a cloud of points");
+        auto made = std::make_unique<Mesh>();
+        const draco::DecoderOptions options = integer_options();
+        const auto run = [&](auto&& decoder) { return decoder.Decode(options, &buffer, &made->mesh); };
+        const draco::Status status = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING
+                                         ? run(Guarded<draco::MeshEdgebreakerDecoder>(allowance))
+                                     : header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING
+                                         ? run(Guarded<draco::MeshSequentialDecoder>(allowance))
+                                         : draco::Status(draco::Status::DRACO_ERROR, "unknown method of encoding");
+        if (allowance.error) return tl::unexpected(*std::move(allowance.error));
+        if (!status.ok()) return damaged(status.error_msg_string());
+        return made;
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::limit, "Draco: out of memory");
+    } catch (const std::exception&) {
+        return damaged("the stream is damaged");
+    }
 }
-std::size_t DracoMesh::vertices() const { return 0; }
-std::size_t DracoMesh::triangles() const { return 0; }
-std::size_t DracoMesh::attributes() const { return 0; }
-std::vector<std::byte> DracoMesh::indices() const { return {}; }
-Result<std::vector<std::byte>> DracoMesh::values(const DracoRequest&, bool*) const { return std::vector<std::byte>(); }
-
-#endif
-
-DracoMesh::DracoMesh(std::unique_ptr<Data> data) : data_(std::move(data)) {}
-DracoMesh::DracoMesh(DracoMesh&&) noexcept = default;
-DracoMesh& DracoMesh::operator=(DracoMesh&&) noexcept = default;
-DracoMesh::~DracoMesh() = default;
 
 }  // namespace halflit::io::detail
+
+#endif

@@ -1,0 +1,27 @@
+// codec_libraries() of a program with the module.
+#include "apps/io/codecs/codec_libraries.hpp"
+
+#include <dlfcn.h>
+
+namespace halflit::io::detail {
+
+namespace {
+
+/// Null: not found. The system looks beside the program and in the folders that are stored in it.
+const CodecLibraries* open_module() {
+    void* const module = ::dlopen("halflit_codecs.so", RTLD_NOW | RTLD_LOCAL);
+    if (module == nullptr) return nullptr;
+    const auto libraries = reinterpret_cast<decltype(&halflit_codec_libraries)>(::dlsym(module, "halflit_codec_libraries"));
+    return libraries == nullptr ? nullptr : libraries();
+}
+
+}  // namespace
+
+Result<const CodecLibraries*> codec_libraries() {
+    static const CodecLibraries* const libraries = open_module();
+    if (libraries == nullptr)
+        return fail(ErrorCode::io, "EXR files and Draco meshes need halflit_codecs.so, which is not beside the program");
+    return libraries;
+}
+
+}  // namespace halflit::io::detail
