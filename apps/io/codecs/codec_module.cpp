@@ -7,9 +7,12 @@ namespace halflit::io::detail {
 
 namespace {
 
-/// Null: not found. The system looks beside the program and in the folders that are stored in it.
+/// Null: not found. $ORIGIN is the program's folder. It is not among the folders in which the system looks for all libraries of the
+/// program (RUNPATH), as looking there takes .7 ms.
 const CodecLibraries* open_module() {
-    void* const module = ::dlopen("halflit_codecs.so", RTLD_NOW | RTLD_LOCAL);
+    void* module = nullptr;
+    for (const char* name : {"$ORIGIN/halflit_codecs.so", "$ORIGIN/" HALFLIT_CODEC_FOLDER "/halflit_codecs.so"})
+        if (module == nullptr) module = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (module == nullptr) return nullptr;
     const auto libraries = reinterpret_cast<decltype(&halflit_codec_libraries)>(::dlsym(module, "halflit_codec_libraries"));
     return libraries == nullptr ? nullptr : libraries();

@@ -17,7 +17,7 @@ namespace halflit::platform {
 
 namespace {
 
-constexpr int kReserved = 128 << 20;          // bytes of addresses; what is not touched takes no memory
+constexpr std::size_t kReserved = 128 << 20;  // bytes of addresses; what is not touched takes no memory
 constexpr int kLargestInHeap = 32 << 20;      // the most that glibc allows; larger blocks are mapped one by one
 constexpr int kKeptFree = 1 << 30;            // the most free memory at the heap's end that is kept
 constexpr std::size_t kFirstBlock = 1 << 20;  // more than is left of the small heap of the program's start
@@ -34,21 +34,18 @@ bool set_up_heap() {
     mallopt(M_MMAP_THRESHOLD, kLargestInHeap);
     mallopt(M_TRIM_THRESHOLD, kKeptFree);
     mallopt(M_ARENA_MAX, 1);  // other threads' heaps would have small pages; they allocate seldom. Overrides MALLOC_ARENA_MAX
-    mallopt(M_TOP_PAD, kReserved);
-    const auto before = reinterpret_cast<std::uintptr_t>(::sbrk(0));
+    mallopt(M_TOP_PAD, static_cast<int>(kReserved));
     void* volatile const block = std::malloc(kFirstBlock);  // volatile: the compiler would leave out a block that is not used
     std::free(block);
-    const auto after = reinterpret_cast<std::uintptr_t>(::sbrk(0));
     mallopt(M_TOP_PAD, static_cast<int>(kFirstBlock));
-    // Another allocator than glibc's leaves the heap as it is.
-    const std::uintptr_t first = (before + kHugePage - 1) / kHugePage * kHugePage;
-    if (after <= first) return true;
+    const auto at = reinterpret_cast<std::uintptr_t>(block), after = reinterpret_cast<std::uintptr_t>(::sbrk(0));
+    // Large pages begin behind what glibc has written to, the header after the block: a large page must be new as a whole.
+    const std::uintptr_t first = (at + kFirstBlock + kHeader + kHugePage - 1) / kHugePage * kHugePage;
+    if (at > after || after - at < kReserved || first >= after) return true;  // another allocator than glibc's, which stays as it is
     ::madvise(reinterpret_cast<void*>(first), after - first, MADV_HUGEPAGE);
-    // What lies before the first large page would be taken in pages of 4 kB, up to 512 of them: a block that nobody writes to covers it.
-    if (const auto at = reinterpret_cast<std::uintptr_t>(block); at < first && first - at > kHeader) {
-        void* volatile const gap = std::malloc(first - at - kHeader);
-        static_cast<void>(gap);
-    }
+    // What lies before would be taken in pages of 4 kB, some hundreds of faults: a block that nobody writes to covers it.
+    void* volatile const gap = std::malloc(first - at - kHeader);
+    static_cast<void>(gap);
     return true;
 }
 
