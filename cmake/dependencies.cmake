@@ -15,7 +15,6 @@
 set(halflit_rows
     "xsimd         raster  8.1    14.3    libxsimd-dev halflit::xsimd header xsimd/config/xsimd_config.hpp MAJOR.([0-9]+) MINOR.([0-9]+)"
     "tl-expected   raster  1.0    1.3.1   libexpected-dev      tl::expected          find_package tl-expected"
-    "TBB           raster  2021.8 2023.1  libtbb-dev           TBB::tbb              find_package TBB"
     "fmt           io      9.1    11.1.1  libfmt-dev           fmt::fmt              find_package fmt"
     "libjpeg       io      2.1    3.1.3   libjpeg62-turbo-dev  PkgConfig::libjpeg    pkg-config libjpeg"
     "spng          io      0.7.3  0.7.4   libspng-dev          PkgConfig::spng       pkg-config spng"

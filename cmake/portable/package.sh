@@ -52,7 +52,7 @@ run libraries "$here/libraries.sh" "$sources" "$made/prefix" "${toolchain[@]}"
 # Threads come from the standard library, and halflit view, which loads SDL2, is left out: a static program cannot load libraries.
 run configuration cmake -S "$root" -B "$made/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${toolchain[@]}" \
     -DHALFLIT_PREFIX="$made/prefix" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
-    -DHALFLIT_ONETBB=OFF -DHALFLIT_VIEWER=OFF -DHALFLIT_BUILD_TESTS=OFF -DHALFLIT_INSTALL=OFF
+    -DHALFLIT_VIEWER=OFF -DHALFLIT_BUILD_TESTS=OFF -DHALFLIT_INSTALL=OFF
 targets=(halflit_python)
 if [ "$only" != wheel ]; then targets+=(halflit); fi
 run program cmake --build "$made/build" --target "${targets[@]}"

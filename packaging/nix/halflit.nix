@@ -1,6 +1,6 @@
 # The program and the libraries. `source`: the tree of the project.
 { lib, stdenv, source, cmake, ninja, pkg-config, cli11, draco, expat, fmt, giflib, libdeflate, libjpeg, libspng, libwebp, meshoptimizer
-, nlohmann_json, openexr, stb, tbb_2021_11, tl-expected, xsimd, zstd }:
+, nlohmann_json, openexr, stb, tl-expected, xsimd, zstd }:
 
 stdenv.mkDerivation {
   pname = "halflit";
@@ -8,7 +8,7 @@ stdenv.mkDerivation {
   src = source;
 
   nativeBuildInputs = [ cmake ninja pkg-config ];
-  buildInputs = [ cli11 draco expat fmt giflib libdeflate libjpeg libspng libwebp meshoptimizer nlohmann_json openexr stb tbb_2021_11 xsimd zstd ];
+  buildInputs = [ cli11 draco expat fmt giflib libdeflate libjpeg libspng libwebp meshoptimizer nlohmann_json openexr stb xsimd zstd ];
   propagatedBuildInputs = [ tl-expected ];
   cmakeFlags = [ "-DHALFLIT_SHARED=ON" "-DHALFLIT_BUILD_TESTS=OFF" "-DHALFLIT_VIEWER=OFF" ];
 

@@ -1,4 +1,4 @@
-// Threads: oneTBB's, the standard library's if halflit is built without oneTBB, or the host's own loop.
+// Threads: the process's own, or the host's loop.
 #pragma once
 
 #include "halflit/settings.hpp"
@@ -27,28 +27,21 @@ private:
 /// task: a lack of memory, or an exception of one of the host's functions. It throws Stopped if the call is to end before its work is done.
 class Executor {
 public:
-    Executor();
-    ~Executor();
+    Executor() = default;
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
     /// Begins a call: takes its threads, its loop and its limits.
     void configure(const Execution& execution);
-    /// Number of threads that run; oneTBB limits it to the cores.
-    /// 0 with a host's loop, whose threads are not known.
+    /// Number of threads that run. 0 with a host's loop, whose threads are not known.
     [[nodiscard]] int threads() const { return hook_ ? 0 : threads_; }
     void run(int count, const std::function<void(int)>& body);
     /// For tasks that take long: they check it now and then.
     [[nodiscard]] StopSignal& stop() { return stop_; }
 
 private:
-    struct Arena;
-    struct GiveBack {
-        void operator()(Arena* arena) const noexcept;
-    };
-    std::unique_ptr<Arena, GiveBack> arena_;
     ParallelFor hook_;
-    int asked_ = 1, threads_ = 1;
+    int threads_ = 1;
     StopSignal stop_;
 };
 

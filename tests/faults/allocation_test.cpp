@@ -86,7 +86,7 @@ void fail_each(int threads, ShadowMode shadows, long stride, bool all_later) {
     Image expected = blank();
     std::vector<std::uint8_t> expected_file;
     long count = 0;
-    Run{}.all(model, settings, 0);             // makes what the process keeps: oneTBB's arenas, one for each number of threads
+    Run{}.all(model, settings, 0);             // makes what the process keeps
     for (int round = 0; round < 2; ++round) {  // so does the first one
         Run undisturbed;
         const AllocationFault none(0);

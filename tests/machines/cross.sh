@@ -24,7 +24,7 @@ apt-get install -y -qq --no-install-recommends cmake ninja-build ccache pkg-conf
 emulator=(qemu-$qemu)
 [ $io = ON ] || emulator+=(-L /usr/$triplet)
 cmake -S /halflit -B "/build/$arch" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE=/halflit/cmake/cross.cmake \
-    -DHALFLIT_ARCH="$arch" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DHALFLIT_ONETBB=OFF -DHALFLIT_BUILD_IO=$io -DHALFLIT_BUILD_APPS=OFF \
+    -DHALFLIT_ARCH="$arch" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DHALFLIT_BUILD_IO=$io -DHALFLIT_BUILD_APPS=OFF \
     -DHALFLIT_BUILD_C=OFF -DHALFLIT_WARNINGS_AS_ERRORS=ON >"/build/$arch.log" 2>&1 || { cat "/build/$arch.log" >&2; exit 1; }
 targets=(halflit_golden_tests halflit_shading_tests halflit_sh_tests)
 [ $io = OFF ] || targets+=(halflit_io_tests)

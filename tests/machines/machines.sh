@@ -140,7 +140,7 @@ test_compilers() {
         done
     done
     [ -z "$newest" ] || golden_of "clang-$newest" -DCMAKE_CXX_COMPILER="clang++-$newest"
-    golden_of libc++ -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-stdlib=libc++ -DHALFLIT_ONETBB=OFF
+    golden_of libc++ -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-stdlib=libc++
     for flags in -march=x86-64-v2 -march=x86-64-v3 -march=native -flto; do
         golden_of "g++$flags" -DCMAKE_CXX_FLAGS="$flags" -DHALFLIT_WARNINGS_AS_ERRORS=OFF
     done

@@ -25,7 +25,7 @@ toolchain=-DCMAKE_TOOLCHAIN_FILE=/halflit/cmake/windows.cmake
 run sources /halflit/apps/web/sources.sh /build/sources "${linked[@]}"
 run libraries $portable/libraries.sh /build/sources /build/windows-libraries $toolchain
 run configuration cmake -S /halflit -B /build/windows -G Ninja -DCMAKE_BUILD_TYPE=Release $toolchain -DHALFLIT_PREFIX=/build/windows-libraries \
-    -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DHALFLIT_ONETBB=OFF -DHALFLIT_VIEWER=OFF -DHALFLIT_INSTALL=OFF -DHALFLIT_WARNINGS_AS_ERRORS=ON
+    -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DHALFLIT_VIEWER=OFF -DHALFLIT_INSTALL=OFF -DHALFLIT_WARNINGS_AS_ERRORS=ON
 run tests cmake --build /build/windows --target halflit_golden_tests halflit_{shading,sh,raster,io,cli}_tests halflit_c_{api,dll}_test
 bin=/build/windows/bin
 wine=/usr/lib/wine/wine64

@@ -77,10 +77,6 @@ halflit::test::Setup settings_of(Isa isa, int threads, int tile, int samples) {
     settings.execution.tile_size = tile;
     settings.samples = samples;
     settings.background_linear = {0.02f, 0.05f, 0.1f, 0.5f};
-#if defined(__SANITIZE_THREAD__)
-    // The thread sanitizer does not see how the system's oneTBB synchronises, and would report each of its joins. The tasks are the same.
-    if (threads > 1) settings.execution.parallel_for = host_loop(threads);
-#endif
     settings.shadow_size = 64;  // small: the scenes have many lights
     return settings;
 }

@@ -39,23 +39,11 @@ inline Shot any_shot(std::uint64_t seed) {
     return shot;
 }
 
-/// The host's threads stand in for oneTBB's under the thread sanitizer, which does not see how the system's oneTBB synchronises.
 inline Execution execution_of(int threads, int tile, Isa isa) {
     Execution execution;
     execution.threads = threads;
     execution.tile_size = tile;
     execution.isa = isa;
-#if defined(__SANITIZE_THREAD__)
-    if (threads > 1)
-        execution.parallel_for = [threads](int count, const std::function<void(int)>& body) {
-            std::atomic<int> next{0};
-            std::vector<std::jthread> others;
-            for (int t = 0; t < threads; ++t)
-                others.emplace_back([&] {
-                    for (int i = next++; i < count; i = next++) body(i);
-                });
-        };
-#endif
     return execution;
 }
 

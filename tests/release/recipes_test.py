@@ -22,7 +22,7 @@ def plain(name):
     """A library's name without what package managers write in different ways."""
     name = re.sub(r"[^a-z0-9]", "", name.lower())
     name = re.sub(r"^(lib|one)|(mux|devel|turbo)$", "", name)
-    return {"jpegturbo": "jpeg", "giflib": "gif", "iflib": "gif", "tbb202111": "tbb"}.get(name, name)
+    return {"jpegturbo": "jpeg", "giflib": "gif", "iflib": "gif"}.get(name, name)
 
 
 class Recipes(unittest.TestCase):

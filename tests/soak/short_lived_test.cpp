@@ -1,4 +1,4 @@
-// Renderers that draw one frame each: their memory is given back. oneTBB's arenas are lent from one to the next.
+// Renderers that draw one frame each: their memory is given back.
 #include "tests/raster/metamorphic_shots.hpp"
 
 #include "tests/support/catch.hpp"

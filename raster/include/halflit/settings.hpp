@@ -113,10 +113,10 @@ using ParallelFor = std::function<void(int count, const std::function<void(int)>
 /// How a frame is computed. Nothing here changes a pixel. The functions may be called from any thread of the frame, by several at once;
 /// they must not throw.
 struct Execution {
-    int threads = 0;             ///< 0: one per core; oneTBB runs at most one per core
+    int threads = 0;             ///< 0: one per core; at most 1,024 run
     int tile_size = 64;          ///< 16, 32 or 64 pixels
     std::optional<Isa> isa{};    ///< instruction set; empty: default_isa()
-    ParallelFor parallel_for{};  ///< the host's threads; empty: oneTBB, or the standard library's threads if built without it
+    ParallelFor parallel_for{};  ///< the host's threads; empty: threads that halflit starts once and keeps
 
     /// Asked before each part of the work, thousands of times in a large frame. True stops the call (ErrorCode::cancelled).
     std::function<bool()> cancelled{};

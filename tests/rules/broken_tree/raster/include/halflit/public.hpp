@@ -1,2 +1,2 @@
 // Sample for the layering test: a third-party type in a public header.
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
