@@ -216,6 +216,38 @@ TEST_CASE("execution: a host's thread that waits within one render may run tiles
     CHECK_THROWS_AS(executor.run(4, [](int) { check_time(); }), OutOfTime);
 }
 
+TEST_CASE("execution: loops of many threads, and loops within loops, share the process's threads", "[raster][execution]") {
+    constexpr int kHosts = 5, kRounds = 40, kOuter = 7, kInner = 5;
+    std::atomic<int> inner_items{0}, caught{0}, wrong{0};
+    std::vector<std::thread> hosts;
+    for (int h = 0; h < kHosts; ++h)
+        hosts.emplace_back([&, h] {
+            raster::Executor executor;
+            for (int round = 0; round < kRounds; ++round) {
+                executor.configure({.threads = 1 + (h + round) % 4});
+                std::vector<std::atomic<int>> taken(kOuter);
+                executor.run(kOuter, [&](int i) {
+                    ++taken[static_cast<std::size_t>(i)];
+                    raster::Executor within;
+                    within.configure({.threads = 3});
+                    within.run(kInner, [&](int) { ++inner_items; });
+                });
+                for (const std::atomic<int>& count : taken) wrong += count != 1;
+                try {
+                    executor.run(kOuter, [](int i) {
+                        if (i == 3) throw std::bad_alloc();
+                    });
+                } catch (const std::bad_alloc&) {
+                    ++caught;
+                }
+            }
+        });
+    for (std::thread& host : hosts) host.join();
+    CHECK(wrong == 0);
+    CHECK(inner_items == kHosts * kRounds * kOuter * kInner);
+    CHECK(caught == kHosts * kRounds);
+}
+
 TEST_CASE("execution: what cancels a thread's work cancels that of threads and limits inside of it", "[raster][execution]") {
     bool is_cancelled = false;
     const TimeLimit::Cancelled asked = [&] { return is_cancelled; };
