@@ -1,5 +1,5 @@
-// OpenEXR and Draco, which few files need. They take a quarter of the time in which a program starts, so a program may have them in a module,
-// halflit_codecs.so, that is opened when the first file needs it (HALFLIT_CODEC_MODULE). Libraries have them linked.
+// OpenEXR and Draco, which few files need. They take a quarter of the time in which a program starts, so a program may have them in a
+// module, halflit_codecs.so, that is opened when the first file needs it (HALFLIT_CODEC_MODULE). Libraries have them linked.
 #pragma once
 
 #include "apps/io/gltf/codecs/draco_mesh.hpp"

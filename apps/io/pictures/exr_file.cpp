@@ -43,8 +43,8 @@ Result<FloatImage> decode_exr(std::span<const std::byte> file, const FloatImageL
     if (!library) return tl::unexpected(library.error());
     const auto header = detail::read_exr_header(file, limits);
     if (!header) return tl::unexpected(header.error());
-    Result<FloatImage> image = in_one_line(
-        (*library)->decode_exr(file, static_cast<int>(header->width), static_cast<int>(header->height), [] { check_time(); }));
+    Result<FloatImage> image =
+        in_one_line((*library)->decode_exr(file, static_cast<int>(header->width), static_cast<int>(header->height), [] { check_time(); }));
     if (!image) return image;
     if (auto ok = check_numbers(*image); !ok) return tl::unexpected(ok.error());
     return image;

@@ -25,8 +25,8 @@ struct DracoRequest {
 
 class DracoMesh {
 public:
-    /// Decodes a stream of version 2.2. Fails (bad_input) for damaged ones and in a build without the library, and (limit) for one that takes
-    /// more than about `memory` bytes, before they are taken.
+    /// Decodes a stream of version 2.2. Fails (bad_input) for damaged ones and in a build without the library, and (limit) for one that
+    /// takes more than about `memory` bytes, before they are taken.
     static Result<std::unique_ptr<DracoMesh>> decode(std::span<const std::byte> stream, std::uint64_t memory);
     DracoMesh() = default;
     DracoMesh(const DracoMesh&) = delete;
