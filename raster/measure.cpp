@@ -63,7 +63,15 @@ public:
             if (*kept) return result(settings, percent_, count_);
         }
         const std::vector<CheaperPart> parts = cheaper_parts(best, facts());
+        if (parts.empty()) return result(best, 100.0, 0);
         std::vector<std::vector<bool>> outside;
+        // A wide budget is often kept by all parts together, which spares drawing the probes with each of them.
+        if (budget_.codes >= kWideBudget) {
+            const Settings cheapest = combinations(best, parts, std::vector<std::vector<bool>>(parts.size())).front().settings;
+            const auto kept = keeps(cheapest);
+            if (!kept) return tl::unexpected<Error>(kept.error());
+            if (*kept) return result(cheapest, percent_, count_);
+        }
         for (const CheaperPart& part : parts) {
             if (auto ok = compare(with_part(best, part)); !ok) return tl::unexpected<Error>(ok.error());
             outside.push_back(outside_);

@@ -9,6 +9,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace halflit::cli {
 namespace {
@@ -24,12 +27,30 @@ bool dominates(const TradeRow& a, const TradeRow& b) {
            (a.ratio < b.ratio || a.error.p999 < b.error.p999);
 }
 
+/// The interval that holds the median of what the values are drawn from with a confidence of 95 %: of the k-th smallest and the k-th largest
+/// value, k as large as it may be. Each value is below the median with a probability of a half (sign test). With five values or fewer their
+/// range, which has less confidence.
+std::pair<double, double> median_interval(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    std::size_t k = 0;
+    double outside = std::pow(0.5, static_cast<double>(n) - 1.0), term = outside;  // on both sides
+    while (k + 1 < (n + 1) / 2) {
+        term *= static_cast<double>(n - k) / static_cast<double>(k + 1);
+        if ((outside += term) > 0.05) break;
+        ++k;
+    }
+    return {values[k], values[n - 1 - k]};
+}
+
+bool is_same(const Image& a, const Image& b) { return a.rgba8 == b.rgba8 && a.rgba_linear == b.rgba_linear; }
+
 }  // namespace
 
 void mark_front(std::vector<TradeRow>& rows) {
     std::vector<TradeRow*> front;
     for (TradeRow& row : rows) {
-        row.front = std::none_of(rows.begin(), rows.end(), [&](const TradeRow& other) { return dominates(other, row); });
+        row.front = !row.same && std::none_of(rows.begin(), rows.end(), [&](const TradeRow& other) { return dominates(other, row); });
         row.number = 0;
         if (row.front) front.push_back(&row);
     }
@@ -71,7 +92,7 @@ Result<TradeBench::Times> TradeBench::time_of(Renderer& renderer, const TradeCho
     const CpuStopwatch cpu_watch;
     const auto rendered =
         renderer.render(*job_.prepared, job_.light, job_.camera, settings_, target_of(job_, timed_), job_.timed_execution());
-    const Times times{watch.ms(), cpu_watch.ms()};
+    const Times times{cpu_watch.ms(), watch.ms()};
     if (!rendered) return tl::unexpected(rendered.error());
     return times;
 }
@@ -115,8 +136,8 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
     const CpuStopwatch cpu_watch;
     auto picture = draw(row.choice);
     if (!picture) return tl::unexpected(picture.error());
-    row.ms = watch.ms();
-    row.cpu_ratio = cpu_watch.ms();  // a time in ms; divided by exact's when that is known
+    row.ms = cpu_watch.ms();
+    row.wall_ratio = watch.ms();  // a time in ms; divided by exact's when that is known
     row.frames = 1;
     if (const auto described = describe(row); !described) return tl::unexpected(described.error());
 
@@ -138,10 +159,11 @@ Result<TradeRow> TradeBench::measure_choice(const TradeChoice& choice) {
     const auto picture = draw(choice);  // not timed: allocates the renderer's memory
     if (!picture) return tl::unexpected(picture.error());
     row.error = reference(choice.lobe).error_of(*picture);
+    const TradeChoice exact = space_.exact();
+    row.same = choice != exact && !choice.lobe && is_same(*picture, *exact_);
     if (const auto described = describe(row); !described) return tl::unexpected(described.error());
 
-    const TradeChoice exact = space_.exact();
-    std::vector<double> times, ratios, cpu_ratios;
+    std::vector<double> times, ratios, wall_ratios;
     for (int i = 0; i < frames_; ++i) {
         // The two are drawn in turn, every second time in the other order, so that other load on the machine affects both alike.
         Result<Times> of_exact = Times{}, of_choice = Times{};
@@ -150,18 +172,17 @@ Result<TradeRow> TradeBench::measure_choice(const TradeChoice& choice) {
         if (i % 2 == 1) of_exact = time_of(exact_renderer_, exact);
         if (!of_exact) return tl::unexpected(of_exact.error());
         if (!of_choice) return tl::unexpected(of_choice.error());
-        times.push_back(of_choice->ms);
-        ratios.push_back(of_choice->ms / of_exact->ms);
-        cpu_ratios.push_back(of_choice->cpu_ms / of_exact->cpu_ms);
-        exact_times_.push_back(of_exact->ms);
+        times.push_back(of_choice->cpu_ms);
+        ratios.push_back(of_choice->cpu_ms / of_exact->cpu_ms);
+        wall_ratios.push_back(of_choice->wall_ms / of_exact->wall_ms);
         exact_cpu_times_.push_back(of_exact->cpu_ms);
+        exact_wall_times_.push_back(of_exact->wall_ms);
     }
     row.ms = median(times);
     row.frames = frames_;
     row.ratio = choice == exact ? 1.0 : median(ratios);  // exact's range stays: it is the noise
-    row.cpu_ratio = choice == exact ? 1.0 : median(cpu_ratios);
-    row.ratio_min = *std::min_element(ratios.begin(), ratios.end());
-    row.ratio_max = *std::max_element(ratios.begin(), ratios.end());
+    row.wall_ratio = choice == exact ? 1.0 : median(wall_ratios);
+    std::tie(row.ratio_min, row.ratio_max) = median_interval(ratios);
     return row;
 }
 
@@ -178,13 +199,16 @@ Result<std::vector<TradeRow>> TradeBench::measure(const std::vector<TradeChoice>
     for (std::size_t i = 0; i < references; ++i)
         if (const auto added = add(measure_reference(i == 0 ? std::nullopt : std::optional(i - 1))); !added)
             return tl::unexpected(added.error());
+    auto exact = draw(space_.exact());
+    if (!exact) return tl::unexpected(exact.error());
+    exact_ = std::move(*exact);
     // The first frame of exact is not measured: it allocates memory, and caches are cold.
     if (const auto warm = time_of(exact_renderer_, space_.exact()); !warm) return tl::unexpected(warm.error());
     for (const TradeChoice& choice : choices)
         if (const auto added = add(measure_choice(choice)); !added) return tl::unexpected(added.error());
-    exact_ms_ = median(exact_times_);
+    exact_ms_ = median(exact_cpu_times_);
     for (std::size_t i = 0; i < references; ++i) rows[i].ratio = rows[i].ratio_min = rows[i].ratio_max = rows[i].ms / exact_ms_;
-    for (std::size_t i = 0; i < references; ++i) rows[i].cpu_ratio /= median(exact_cpu_times_);
+    for (std::size_t i = 0; i < references; ++i) rows[i].wall_ratio /= median(exact_wall_times_);
     mark_front(rows);
     return rows;
 }

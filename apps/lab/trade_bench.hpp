@@ -16,10 +16,11 @@ namespace halflit::cli {
 struct TradeRow {
     TradeChoice choice;
     std::string name, flags;
-    double ms = 0;     ///< median of the frames
-    double ratio = 1;  ///< median, over pairs of frames drawn in turn, of this row's time divided by that of exact
-    double ratio_min = 1, ratio_max = 1;
-    double cpu_ratio = 1;  ///< the same for CPU time
+    double ms = 0;     ///< the processor's time, median of the frames
+    double ratio = 1;  ///< median, over pairs of frames drawn in turn, of this row's processor time divided by that of exact
+    double ratio_min = 1, ratio_max = 1;  ///< where that median lies with a confidence of 95 %, by the pairs' order; few pairs: their range
+    double wall_ratio = 1;                ///< the same for the clock's time
+    bool same = false;                    ///< a picture that is exact's in every bit, though the settings are not
     int frames = 0;
     TradeError error;
     std::optional<ErrorBound> bound;      ///< the proven bound, if the row has an error budget
@@ -34,7 +35,7 @@ struct TradeRow {
 };
 
 /// Marks each lobe's Pareto front in (ratio, error.p999): a row is left out if another one of its lobe is no larger in both and smaller in
-/// one. Numbers the marked rows of all lobes by time.
+/// one, or if it changes nothing. Numbers the marked rows of all lobes by time.
 void mark_front(std::vector<TradeRow>& rows);
 
 /// Draws and times a job's frame with each choice, and keeps the references.
@@ -53,7 +54,7 @@ public:
 
     [[nodiscard]] const RenderJob& job() const { return job_; }
     [[nodiscard]] const TradeSpace& space() const { return space_; }
-    /// Median time of exact over all of its frames.
+    /// Median of exact's processor time over all of its frames.
     [[nodiscard]] double exact_ms() const { return exact_ms_; }
 
 private:
@@ -63,7 +64,7 @@ private:
     Result<TradeRow> measure_reference(std::optional<std::size_t> lobe);
     Result<TradeRow> measure_choice(const TradeChoice& choice);
     struct Times {
-        double ms, cpu_ms;
+        double cpu_ms, wall_ms;
     };
     Result<Times> time_of(Renderer& renderer, const TradeChoice& choice);
     Result<void> describe(TradeRow& row);
@@ -76,7 +77,8 @@ private:
     std::optional<std::size_t> lobe_;  ///< lobe that the materials have now
     Image timed_;                      ///< target of the timed frames: 8-bit codes alone
     Renderer exact_renderer_, renderer_;
-    std::vector<double> exact_times_, exact_cpu_times_;
+    std::optional<Image> exact_;  ///< exact's picture with the scene's own lobe
+    std::vector<double> exact_cpu_times_, exact_wall_times_;
     double exact_ms_ = 0;
     std::vector<TradeReference> references_;  ///< one for the scene's own lobe, then one for each of the others
     RenderReport drawn_;                      ///< report of the last draw()

@@ -22,8 +22,8 @@ struct TradeOffer {
     double codes = 0;
     const TradeRow* row = nullptr;
 };
-/// Offers by falling accuracy, each row once, at the least error that allows it. Only rows that are surely cheaper than exact: faster in
-/// every pair of frames, and by more than exact against itself varies. May be empty.
+/// Offers by falling accuracy, each row once, at the least error that allows it. Only rows that are surely cheaper than exact: less
+/// time by all of the interval of ratios, and by more than exact against itself varies, for another picture. May be empty.
 [[nodiscard]] std::vector<TradeOffer> trade_offers(const std::vector<TradeRow>& rows, const TradeSpace& space);
 /// Lines for people: what is free, what costs one code, what is not worth it, and what the machine was too noisy to tell.
 [[nodiscard]] std::vector<std::string> trade_verdict(const std::vector<TradeRow>& rows, const TradeSpace& space);

@@ -431,7 +431,7 @@ TEST_CASE("palette: a picture of 256 colours keeps them, and one of more has eac
 TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn", "[cli][film]") {
     const TemporaryFolder folder;
     const auto frames = [&](const std::string& name, const Strings& more) {
-        Strings flags{"render", "demo", "--size", "160x120", "--turntable", "9", "--quality", "draft", "-v", "-o", folder.file(name)};
+        Strings flags{"render", "demo", "--size", "160x120", "--turntable", "18", "--quality", "draft", "-v", "-o", folder.file(name)};
         flags.insert(flags.end(), more.begin(), more.end());
         Outcome outcome = run(flags);
         INFO(outcome.err);
@@ -445,7 +445,7 @@ TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn
     const std::size_t at = said.find("probes: ");
     REQUIRE(at != std::string::npos);
     std::istringstream told(said.substr(at + 8, said.find('\n', at) - at - 8));
-    Strings flags{"render", "demo", "--size", "160x120", "--turntable", "9", "--frames", "7", "-o", folder.file("told_{}.bmp")};
+    Strings flags{"render", "demo", "--size", "160x120", "--turntable", "18", "--frames", "7", "-o", folder.file("told_{}.bmp")};
     for (std::string word; told >> word;) flags.push_back(word);
     REQUIRE(flags.size() == 16);
     const Outcome outcome = run(flags);
@@ -453,7 +453,7 @@ TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn
     REQUIRE(outcome.code == 0);
     CHECK(contents(folder.file("told_7.bmp")) == contents(folder.file("all_7.bmp")));
     // A budget of one's own, and the report.
-    const Outcome shared = run({"render", "demo", "--size", "160x120", "--turntable", "9", "--max-error", "8", "--share", "95%", "-o",
+    const Outcome shared = run({"render", "demo", "--size", "160x120", "--turntable", "18", "--max-error", "8", "--share", "95%", "-o",
                                 folder.file("shared_{}.bmp"), "--report", folder.file("shared.json")});
     REQUIRE(shared.code == 0);
     CHECK(contents(folder.file("shared_7.bmp")) == contents(folder.file("all_7.bmp")));
@@ -473,9 +473,19 @@ TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn
     for (const Strings& more : {Strings{}, Strings{"--quality", "draft"}}) {
         Strings one{"render", "demo", "--size", "64", "-o", folder.file(more.empty() ? "a.bmp" : "b.bmp")};
         one.insert(one.end(), more.begin(), more.end());
-        REQUIRE(run(one).code == 0);
+        const Outcome drawn = run(one);
+        REQUIRE(drawn.code == 0);
+        CHECK((drawn.err.find("quality: full, as") != std::string::npos) == !more.empty());
     }
     CHECK(contents(folder.file("a.bmp")) == contents(folder.file("b.bmp")));
+    // A short film is not measured, and says so.
+    for (const Strings& more : {Strings{"--turntable", "3", "--quality", "draft"}, Strings{"--turntable", "100", "--frames", "0-1", "--quality", "fast"}}) {
+        Strings few{"render", "demo", "--size", "64", "-o", folder.file("few_{}.bmp")};
+        few.insert(few.end(), more.begin(), more.end());
+        const Outcome drawn = run(few);
+        REQUIRE(drawn.code == 0);
+        CHECK(drawn.err.find("does not repay measuring") != std::string::npos);
+    }
 }
 
 TEST_CASE("frames: wrong flags are told with what was expected", "[cli][film]") {
