@@ -27,9 +27,9 @@ bool dominates(const TradeRow& a, const TradeRow& b) {
            (a.ratio < b.ratio || a.error.p999 < b.error.p999);
 }
 
-/// The interval that holds the median of what the values are drawn from with a confidence of 95 %: of the k-th smallest and the k-th largest
-/// value, k as large as it may be. Each value is below the median with a probability of a half (sign test). With five values or fewer their
-/// range, which has less confidence.
+/// The interval that holds the median of what the values are drawn from with a confidence of 95 %: of the k-th smallest and the k-th
+/// largest value, k as large as it may be. Each value is below the median with a probability of a half (sign test). With five values or
+/// fewer their range, which has less confidence.
 std::pair<double, double> median_interval(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t n = values.size();

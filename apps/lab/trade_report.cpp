@@ -78,16 +78,18 @@ std::string trade_table(const std::vector<TradeRow>& rows, const TradeBench& ben
     std::string text = fmt::format(
         "# Time and error of {}\n\n```\n{}```\n\n"
         "Geometry covers {} pixels. Times are medians of the processor's time, divided by exact's; \"same\": the picture is exact's. "
-        "Errors are differences from the float64 reference in a pixel's worst channel, in 8-bit codes before rounding. A bound is what a budget proves beforehand. Numbered rows are the Pareto "
+        "Errors are differences from the float64 reference in a pixel's worst channel, in 8-bit codes before rounding. A bound is what a "
+        "budget proves beforehand. Numbered rows are the Pareto "
         "front: settings that no other setting beats in both time and error.\n\n"
         "| | settings | flags | time | largest error | of 99.9 % | mean | PSNR, dB | off by 1, % | bound |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n",
         bench.job().source.name, trade_summary(rows, bench), bench.reference(std::nullopt).pixels_drawn());
     for (const TradeRow* row : rows_by_time(rows))
-        text += fmt::format("| {} | {} | {} | {} | {:.3g} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n",
-                            row->number > 0 ? fmt::format("{}", row->number) : "", row->name,
-                            row->flags.empty() ? "" : "`" + row->flags + "`", row->same ? "same" : fmt::format("{:.2f}", row->ratio), row->error.max, row->error.p999, row->error.mean,
-                            row->error.psnr ? fmt::format("{:.1f}", *row->error.psnr) : "", 100 * row->error.share_off, bound_text(*row));
+        text +=
+            fmt::format("| {} | {} | {} | {} | {:.3g} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n",
+                        row->number > 0 ? fmt::format("{}", row->number) : "", row->name, row->flags.empty() ? "" : "`" + row->flags + "`",
+                        row->same ? "same" : fmt::format("{:.2f}", row->ratio), row->error.max, row->error.p999, row->error.mean,
+                        row->error.psnr ? fmt::format("{:.1f}", *row->error.psnr) : "", 100 * row->error.share_off, bound_text(*row));
     return text;
 }
 

@@ -479,7 +479,8 @@ TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn
     }
     CHECK(contents(folder.file("a.bmp")) == contents(folder.file("b.bmp")));
     // A short film is not measured, and says so.
-    for (const Strings& more : {Strings{"--turntable", "3", "--quality", "draft"}, Strings{"--turntable", "100", "--frames", "0-1", "--quality", "fast"}}) {
+    for (const Strings& more :
+         {Strings{"--turntable", "3", "--quality", "draft"}, Strings{"--turntable", "100", "--frames", "0-1", "--quality", "fast"}}) {
         Strings few{"render", "demo", "--size", "64", "-o", folder.file("few_{}.bmp")};
         few.insert(few.end(), more.begin(), more.end());
         const Outcome drawn = run(few);

@@ -80,10 +80,11 @@ TEST_CASE("trade: table and report are complete, and list the same rows", "[cli]
     CHECK(found == wanted);
     for (const Json& row : rows) {
         INFO(row.dump());
-        for (const char* key : {"name",        "flags",      "lobe",           "accuracy", "max_error",   "order",
-                                "orders_used", "rate",       "texture_filter", "shadows",  "shadow_size", "lobes_computed_as",
-                                "samples",     "anisotropy", "specular_power", "frames",   "ms",          "ratio",
-                                "ratio_range", "wall_ratio", "changes_nothing", "error",          "bound",    "front"})
+        for (const char* key :
+             {"name",           "flags",          "lobe",    "accuracy",    "max_error",         "order",      "orders_used",
+              "rate",           "texture_filter", "shadows", "shadow_size", "lobes_computed_as", "samples",    "anisotropy",
+              "specular_power", "frames",         "ms",      "ratio",       "ratio_range",       "wall_ratio", "changes_nothing",
+              "error",          "bound",          "front"})
             CHECK(row.contains(key));
         for (const char* key : {"max", "mean", "p999", "psnr", "share_off_by_one"}) CHECK(row["error"].contains(key));
         CHECK(row["ms"].get<double>() > 0);
@@ -194,7 +195,9 @@ TEST_CASE("trade: the summary offers settings that were surely faster, each once
     REQUIRE(outcome.code == 0);
     const Json rows = rows_of(folder.path());
     const Json& exact = row_named(rows, "exact");
-    const auto surely_cheaper = [&](const Json& row) { return !row["changes_nothing"].get<bool>() && row["ratio_range"][1] < 1.0 && row["ratio"] < exact["ratio_range"][0]; };
+    const auto surely_cheaper = [&](const Json& row) {
+        return !row["changes_nothing"].get<bool>() && row["ratio_range"][1] < 1.0 && row["ratio"] < exact["ratio_range"][0];
+    };
     std::istringstream lines(outcome.out);
     std::set<std::string> offered;
     std::size_t count_of_lines = 0;

@@ -182,7 +182,8 @@ TEST_CASE("tolerance: a primitive that cannot be read is left out, and a file of
     CHECK_FALSE(load(cut));
 }
 
-TEST_CASE("tolerance: directions of length 0 are made anew, and those among others become their triangles'", "[io]") {
+TEST_CASE("tolerance: directions of length 0 are made anew, those among others become their triangles', and endless ones are kept",
+          "[io]") {
     Bytes zeros, one_zero, tangents;
     append<float>(zeros, {0, 0, 0, 0, 0, 0, 0, 0, 0});
     append<float>(one_zero, {1, 0, 0, 0, 0, 0, 1, 0, 0});
@@ -192,6 +193,11 @@ TEST_CASE("tolerance: directions of length 0 are made anew, and those among othe
     CHECK(flat.normals.at(0) == Vec3f{0, 0, 1});
     const Mesh mended = load_ok(with_attribute("NORMAL", one_zero, vec3)).scene.meshes.at(0);
     CHECK(mended.normals == std::vector<Vec3f>{{1, 0, 0}, {0, 0, 1}, {1, 0, 0}});
+    // A square beyond float is no lack of a direction.
+    Bytes endless;
+    append<float>(endless, {3e38f, 0, 0, 0, -2e38f, 0, 0, 0, 1e16f});
+    CHECK(load_ok(with_attribute("NORMAL", endless, vec3)).scene.meshes.at(0).normals ==
+          std::vector<Vec3f>{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}});
     TriangleFile file;
     const int normal = file.add(one_zero, vec3), tangent = file.add(tangents, R"("componentType":5126,"count":3,"type":"VEC4")");
     file.attributes += fmt::format(",\"NORMAL\":{},\"TANGENT\":{}", normal, tangent);

@@ -42,7 +42,8 @@ Result<int> render_scene(PictureOptions options) {
 Result<int> run_render(RenderLine line) {
     const auto kind = settle(line);
     if (!kind) return tl::unexpected(kind.error());
-    if (*kind != RenderKind::film && line.film.quality) print_note("quality: full, as measuring takes longer than it saves in one picture of a scene");
+    if (*kind != RenderKind::film && line.film.quality)
+        print_note("quality: full, as measuring takes longer than it saves in one picture of a scene");
     if (*kind == RenderKind::many) return render_many({line, line.words, line.skip_existing});
     line.scene = line.words.empty() ? "" : line.words[0];
     return *kind == RenderKind::film ? render_film(line, line.skip_existing) : render_scene(line);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace halflit::io::detail {
@@ -69,6 +70,23 @@ bool has_direction(const T& v) {
     return length2 > 1e-30f && length2 < 1e30f;
 }
 
+/// Finite, but with a square that float does not hold. (What is as short stands for 0.)
+template <class T>
+bool is_long(const T& v) {
+    const double square = dot(Vec3d{v.x, v.y, v.z}, Vec3d{v.x, v.y, v.z});
+    return square >= 1e30 && square < std::numeric_limits<double>::infinity();
+}
+
+template <class T>
+void shorten(std::vector<T>& directions) {
+    for (T& v : directions) {
+        if (!is_long(v)) continue;
+        const Vec3d wide{v.x, v.y, v.z};
+        const Vec3f unit = to_float(wide * (1.0 / length(wide)));
+        v.x = unit.x, v.y = unit.y, v.z = unit.z;
+    }
+}
+
 bool usable(double length) { return length > 1e-200 && length < 1e200; }
 
 /// For each vertex the sum of of_triangle(corners) over its triangles.
@@ -127,7 +145,9 @@ void mend_values(Document& document, const std::string& list, Mesh& mesh) {
     mend(document, list, "TEXCOORD_1", mesh.uv1, &kOrigin, "read as 0");
     mend(document, list, "COLOR_0", mesh.colors, &kWhite, "read as white");
     // mend_directions() warns of directions of length 0.
-    const auto not_unit = [strict = document.options.strict](const auto& v) { return (strict || has_direction(v)) && !is_unit(v); };
+    const auto not_unit = [strict = document.options.strict](const auto& v) {
+        return (strict || has_direction(v) || is_long(v)) && !is_unit(v);
+    };
     warn_of(document, list, "NORMAL", mesh.normals, not_unit, "are not of length 1");
     warn_of(document, list, "TANGENT", mesh.tangents, not_unit, "are not of length 1");
     warn_of(
@@ -150,6 +170,8 @@ void mend_directions(Document& document, const std::string& list, Mesh& mesh) {
         refuse_not_finite(list, "TANGENT", mesh.tangents);
         return;
     }
+    shorten(mesh.normals);
+    shorten(mesh.tangents);
     const auto lacking = [](const auto& v) { return !has_direction(v); };
     const std::size_t normals = count_of(mesh.normals, lacking), tangents = count_of(mesh.tangents, lacking);
     const auto warn = [&](const char* name, std::size_t count, std::size_t of, const char* instead) {
