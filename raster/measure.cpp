@@ -6,6 +6,7 @@
 #include "raster/renderer_impl.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -66,11 +67,12 @@ public:
         if (parts.empty()) return result(best, 100.0, 0);
         std::vector<std::vector<bool>> outside;
         // A wide budget is often kept by all parts together, which spares drawing the probes with each of them.
+        std::optional<Settings> cheapest;
         if (budget_.codes >= kWideBudget) {
-            const Settings cheapest = combinations(best, parts, std::vector<std::vector<bool>>(parts.size())).front().settings;
-            const auto kept = keeps(cheapest);
+            cheapest = combinations(best, parts, std::vector<std::vector<bool>>(parts.size())).front().settings;
+            const auto kept = keeps(*cheapest);
             if (!kept) return tl::unexpected<Error>(kept.error());
-            if (*kept) return result(cheapest, percent_, count_);
+            if (*kept) return result(*cheapest, percent_, count_);
         }
         for (const CheaperPart& part : parts) {
             if (auto ok = compare(with_part(best, part)); !ok) return tl::unexpected<Error>(ok.error());
@@ -78,7 +80,7 @@ public:
         }
         int tried = 0;
         for (const Combination& one : combinations(best, parts, outside)) {
-            if (shown(one.outside) < budget_.percent) continue;
+            if (one.settings == cheapest || shown(one.outside) < budget_.percent) continue;
             if (tried++ == kMostTried) break;
             const auto kept = keeps(one.settings);
             if (!kept) return tl::unexpected<Error>(kept.error());

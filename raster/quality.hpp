@@ -13,6 +13,9 @@
 
 namespace halflit::raster {
 
+/// Codes from which on a budget is often kept by all cheaper settings together.
+inline constexpr double kWideBudget = 4;
+
 /// Facts of the frame that decide which parts can be cheaper.
 struct QualityFacts {
     bool textures = false;  ///< some material has one

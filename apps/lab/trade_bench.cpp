@@ -28,8 +28,8 @@ bool dominates(const TradeRow& a, const TradeRow& b) {
 }
 
 /// The interval that holds the median of what the values are drawn from with a confidence of 95 %: of the k-th smallest and the k-th
-/// largest value, k as large as it may be. Each value is below the median with a probability of a half (sign test). With five values or
-/// fewer their range, which has less confidence.
+/// largest value, k as large as it may be. Each value is below the median with a probability of a half (sign test). Of five values or
+/// fewer it is their range, with less confidence.
 std::pair<double, double> median_interval(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t n = values.size();
@@ -50,7 +50,8 @@ bool is_same(const Image& a, const Image& b) { return a.rgba8 == b.rgba8 && a.rg
 void mark_front(std::vector<TradeRow>& rows) {
     std::vector<TradeRow*> front;
     for (TradeRow& row : rows) {
-        row.front = !row.same && std::none_of(rows.begin(), rows.end(), [&](const TradeRow& other) { return dominates(other, row); });
+        row.front = !row.same &&
+                    std::none_of(rows.begin(), rows.end(), [&](const TradeRow& other) { return !other.same && dominates(other, row); });
         row.number = 0;
         if (row.front) front.push_back(&row);
     }

@@ -18,7 +18,7 @@ struct TradeRow {
     std::string name, flags;
     double ms = 0;     ///< the processor's time, median of the frames
     double ratio = 1;  ///< median, over pairs of frames drawn in turn, of this row's processor time divided by that of exact
-    double ratio_min = 1, ratio_max = 1;  ///< where that median lies with a confidence of 95 %, by the pairs' order; few pairs: their range
+    double ratio_min = 1, ratio_max = 1;  ///< where that median lies with a confidence of 95 % (sign test; from 6 pairs on)
     double wall_ratio = 1;                ///< the same for the clock's time
     bool same = false;                    ///< a picture that is exact's in every bit, though the settings are not
     int frames = 0;

@@ -18,7 +18,7 @@ constexpr PictureSize kTradeSize{640, 360};
 struct TradeOptions : RenderOptions {
     std::string folder = "trade";
     std::vector<TradeLobe> lobes;
-    int frames = 5;
+    int frames = 6;
     bool quick = false, all = false, progress = false;
 };
 
@@ -85,7 +85,7 @@ Command trade_command() {
         {"Comparison",
          {{"-o,--output", "DIR", "Folder for trade.json and trade.md, a table; created if missing (default trade)",
            [&o](const std::string& text) { return assign(o.folder, parse_folder(text)); }},
-          {"--frames", "N", "Frames for each setting; drawn in turn with frames of exact (default 5)", read_int(o.frames, 1, 1000)},
+          {"--frames", "N", "Frames for each setting; drawn in turn with frames of exact (default 6)", read_int(o.frames, 1, 1000)},
           {"--lobes", "NAME,...", "Also measure these lobes, on every material: NAME, NAME:WRAP or NAME:WRAP:POWER",
            [&o](const std::string& text) { return read_lobes(o.lobes, text); }},
           {"--quick", "", "Vary one setting at a time", set_to(o.quick)},

@@ -155,10 +155,11 @@ std::vector<std::string> trade_verdict(const std::vector<TradeRow>& rows, const 
     std::vector<std::string> lines{"free (within 0.1 codes): " + told(best(kFree)), "for one code: " + told(best(kLittle))};
     // Settings that cost accuracy and save nothing, and those that the noise hides.
     std::string wasted;
-    int hidden = 0, same = 0;
+    int hidden = 0, same = 0, varied = 0;
     double frames = 0;
     for (const TradeRow& row : rows) {
         if (row.choice.lobe || row.choice.accuracy == Accuracy::reference || &row == &exact) continue;
+        ++varied;
         same += row.same;
         if (row.same) continue;
         const bool alone = settings_varied(row.choice, space) == 1;
@@ -171,7 +172,7 @@ std::vector<std::string> trade_verdict(const std::vector<TradeRow>& rows, const 
         }
     }
     lines.push_back("not worth it: " + (wasted.empty() ? std::string("nothing of these") : wasted));
-    if (same > 0) lines.push_back(fmt::format("changes nothing here: {} of {} settings", same, rows.size()));
+    if (same > 0) lines.push_back(fmt::format("changes nothing here: {} of {} settings", same, varied));
     if (hidden > 0)
         lines.push_back(
             fmt::format("too noisy to tell: {} setting{} seemed faster, but not surely; --frames {} or a quiet "

@@ -35,7 +35,7 @@ void print_means(const std::vector<TurnsRow>& rows, const std::vector<Isa>& isas
 void print_first_head();
 void print_first(const FirstRow& row);
 
-/// Writes peer_MACHINE.csv and peer_first_MACHINE.csv, with the columns of bench/README.md. False if a file cannot be written.
+/// Writes peer_MACHINE.csv and peer_first_MACHINE.csv, with a column for each member. False if a file cannot be written.
 [[nodiscard]] bool write_csv(const std::string& folder, const std::vector<TurnsRow>& turns, const std::vector<FirstRow>& first,
                              const std::vector<Isa>& isas);
 

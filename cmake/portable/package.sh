@@ -49,7 +49,7 @@ else
     toolchain=(-DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DHALFLIT_ARCH="$arch" -DHALFLIT_SYSROOT="$made/sysroot")
 fi
 run libraries "$here/libraries.sh" "$sources" "$made/prefix" "${toolchain[@]}"
-# Threads come from the standard library, and halflit view, which loads SDL2, is left out: a static program cannot load libraries.
+# halflit view, which loads SDL2, is left out: a static program cannot load libraries.
 run configuration cmake -S "$root" -B "$made/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${toolchain[@]}" \
     -DHALFLIT_PREFIX="$made/prefix" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
     -DHALFLIT_VIEWER=OFF -DHALFLIT_BUILD_TESTS=OFF -DHALFLIT_INSTALL=OFF

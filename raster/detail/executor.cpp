@@ -14,8 +14,20 @@
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
 #endif
+#ifdef __linux__
+#include <sched.h>
+#endif
 
 namespace halflit::raster {
+
+int available_cores() {
+#ifdef __linux__
+    cpu_set_t set;
+    if (::sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+#endif
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 namespace {
 
 /// Runs `loop(task)`. The loop may use threads that an exception must not leave, so the first one is caught there and rethrown here.
@@ -34,7 +46,8 @@ void run_catching(const Loop& loop, const std::function<void(int)>& task) {
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Threads of the process, which wait for loops: started when they are first asked for, kept to its end. A loop takes those that are free.
+/// Threads of the process, which wait for loops: started when they are first asked for, kept to its end. A loop takes those that are free;
+/// where loops run at once, there are as many threads as cores.
 class Threads {
 public:
     /// Never freed: the threads may wait while the process ends. A process that was forked has none of its parent's, and gets its own.
@@ -52,24 +65,20 @@ public:
     int start(int wanted) {
         wanted = std::min(wanted, kMost);
         const std::lock_guard lock(mutex_);
-        try {
-            for (; started_ < wanted; ++started_) std::thread([this] { wait_for_loops(); }).detach();
-        } catch (const std::system_error&) {
-        }
+        start_more(wanted);
         return std::min(started_, wanted);
     }
 
     /// Runs task(0) to task(count - 1) on this thread and at most `others` more. No task throws.
     void run(int others, int count, const std::function<void(int)>& task) {
-        Loop loop{task, count, std::min(others, count - 1)};
+        const int places = std::min(others, count - 1);
+        Loop loop{task, count, places};
         {
             const std::lock_guard lock(mutex_);
+            if (idle_ < places) start_more(std::min(started_ + places - idle_, cores_ - 1));
             loops_.push_back(&loop);
         }
-        if (loop.open == 1)
-            wake_.notify_one();
-        else
-            wake_.notify_all();
+        for (int i = 0; i < places; ++i) wake_.notify_one();
         loop.work();
         std::unique_lock lock(mutex_);
         std::erase(loops_, &loop);
@@ -91,10 +100,19 @@ private:
         }
     };
 
+    /// Requires: mutex_ is locked.
+    void start_more(int wanted) {
+        try {
+            for (; started_ < wanted; ++started_, ++idle_) std::thread([this] { wait_for_loops(); }).detach();
+        } catch (const std::system_error&) {
+        }
+    }
+
     void wait_for_loops() {
         std::unique_lock lock(mutex_);
-        for (;;) {
+        for (;; ++idle_) {
             wake_.wait(lock, [this] { return !loops_.empty(); });
+            --idle_;
             Loop& loop = *loops_.back();  // of loops within loops the innermost
             if (--loop.open == 0) loops_.pop_back();
             ++loop.inside;
@@ -114,7 +132,8 @@ private:
     std::mutex mutex_;
     std::condition_variable wake_;
     std::vector<Loop*> loops_;  ///< those that have open places
-    int started_ = 0;
+    int started_ = 0, idle_ = 0;
+    const int cores_ = available_cores();
 };
 
 }  // namespace
@@ -123,7 +142,7 @@ void Executor::configure(const Execution& execution) {
     stop_.arm(execution);
     hook_ = execution.parallel_for;
     if (hook_) return;
-    const int wanted = execution.threads > 0 ? execution.threads : static_cast<int>(std::thread::hardware_concurrency());
+    const int wanted = execution.threads > 0 ? execution.threads : available_cores();
     threads_ = wanted > 1 ? 1 + Threads::of_process().start(wanted - 1) : 1;
 }
 

@@ -485,7 +485,7 @@ TEST_CASE("frames: a film's quality is measured once, whichever frames are drawn
         few.insert(few.end(), more.begin(), more.end());
         const Outcome drawn = run(few);
         REQUIRE(drawn.code == 0);
-        CHECK(drawn.err.find("does not repay measuring") != std::string::npos);
+        CHECK(drawn.err.find("frames does not repay measuring") != std::string::npos);
     }
 }
 

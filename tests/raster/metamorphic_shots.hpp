@@ -5,9 +5,6 @@
 #include "tests/raster/random_trial.hpp"
 #include "tests/support/catch.hpp"
 
-#include <atomic>
-#include <thread>
-
 namespace halflit::raster::test {
 
 /// Bodies apart from each other, shapes with skies and many lights, or heaps of triangles of all sizes, some of them thin, inside each

@@ -21,7 +21,7 @@ def libraries(uses):
 def plain(name):
     """A library's name without what package managers write in different ways."""
     name = re.sub(r"[^a-z0-9]", "", name.lower())
-    name = re.sub(r"^(lib|one)|(mux|devel|turbo)$", "", name)
+    name = re.sub(r"^lib|(mux|devel|turbo)$", "", name)
     return {"jpegturbo": "jpeg", "giflib": "gif", "iflib": "gif"}.get(name, name)
 
 

@@ -45,5 +45,5 @@ TEST_CASE("soak: thousands of Renderers that draw one frame each keep no memory"
     double least = 1e9;  // the allocator may take more once
     for (int round = 0; round < 3; ++round) least = std::min(least, draw(1000));
     INFO(frames << " frames");
-    CHECK(least < 2.0);  // measured -0.7 to 0; 14 when each frame had arenas of its own
+    CHECK(least < 2.0);  // measured -0.7 to 0
 }

@@ -16,6 +16,7 @@
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/process.hpp"
+#include "raster/quality.hpp"
 
 #include <fmt/core.h>
 
@@ -220,10 +221,10 @@ private:
         is_measured_ = true;
         constexpr std::int64_t kFrames = 3;
         const std::int64_t all = frames_of_all();
-        const std::int64_t least = options_.film.quality->codes >= kWideBudget ? 16 : 128;
+        const std::int64_t least = options_.film.quality->codes >= raster::kWideBudget ? 16 : 128;
         if (all < least) {
             options_.film.quality.reset();
-            print_note(fmt::format("quality: full, as a film of {} frames does not repay measuring; one of {} does", all, least));
+            print_note(fmt::format("quality: full, as a turn or an animation of fewer than {} frames does not repay measuring", least));
             return {};
         }
         for (std::int64_t k = 0; k < std::min(all, kFrames); ++k) {
@@ -275,6 +276,11 @@ private:
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));
         drawn.rendered = *rendered;
+        if (const std::size_t told = job_->warnings.size(); !is_budget_told_) {
+            warn_of_budget(*job_, rendered->error);
+            is_budget_told_ = job_->warnings.size() > told;
+            if (is_budget_told_) print_warning(fmt::format("frame {}: {}", number, job_->warnings.back()));
+        }
         if (const auto derived = drawn.planes->derive(*job_, camera); !derived) return tl::unexpected(derived.error());
         if (options_.film.quality) drawn.file.measured = measured_;
         return drawn;
@@ -376,7 +382,7 @@ private:
     std::array<Image, 2> pictures_;  ///< one is drawn while the other is encoded
     std::vector<AovPlanes> planes_;  ///< of each of them
     Renderer renderer_;
-    bool is_measured_ = false;
+    bool is_measured_ = false, is_budget_told_ = false;
     MeasuredShare measured_;  ///< of the film
     std::string report_;
 };

@@ -11,6 +11,7 @@
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/process.hpp"
+#include "raster/detail/executor.hpp"
 
 #include <fmt/core.h>
 
@@ -119,7 +120,7 @@ public:
 private:
     static int thread_count(const ManyOptions& options) {
         const int wanted = options.each.execution.threads;
-        return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        return wanted > 0 ? wanted : raster::available_cores();
     }
 
     Result<void> name_pictures() {

@@ -23,8 +23,6 @@ namespace halflit::io::detail {
 
 namespace {
 
-constexpr float kLargestHalf = 65504.0f;
-
 /// A file in memory, as the library reads it.
 class Reading : public Imf::IStream {
 public:
@@ -85,7 +83,7 @@ Result<std::array<std::string, 3>> colour_channels(const Imf::ChannelList& list)
     return names;
 }
 
-Result<FloatImage> read_pixels(Imf::InputFile& file, int width, int height, void (*check_time)()) {
+Result<ExrPixels> read_pixels(Imf::InputFile& file, int width, int height, void (*check_time)()) {
     const Imf::ChannelList& list = file.header().channels();
     const auto names = colour_channels(list);
     if (!names) return tl::unexpected(names.error());
@@ -100,25 +98,20 @@ Result<FloatImage> read_pixels(Imf::InputFile& file, int width, int height, void
         frame.insert((*names)[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), 12, 0));
     }
     file.setFrameBuffer(frame);
-    bool half[3];
-    for (std::size_t c = 0; c < 3; ++c) half[c] = list.findChannel((*names)[c])->type == Imf::HALF;
-    FloatImage image{width, height, {}};  // grows with what has been read
+    ExrPixels pixels;  // grow with what has been read
+    for (std::size_t c = 0; c < 3; ++c) pixels.is_half[c] = list.findChannel((*names)[c])->type == Imf::HALF;
     for (int y = window.min.y; y <= window.max.y; ++y) {
         check_time();
-        if (y - window.min.y == height / 8) image.rgb.reserve(3 * columns * static_cast<std::size_t>(height));
+        if (y - window.min.y == height / 8) pixels.rgb.reserve(3 * columns * static_cast<std::size_t>(height));
         file.readPixels(y, y);
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            const std::size_t c = i % 3;
-            const float value = light_of(row[grey ? i - c : i]);
-            image.rgb.push_back(half[c] ? (value > kLargestHalf ? kLargestHalf : value) : value);
-        }
+        for (std::size_t i = 0; i < row.size(); ++i) pixels.rgb.push_back(row[grey ? i - i % 3 : i]);
     }
-    return image;
+    return pixels;
 }
 
 }  // namespace
 
-Result<FloatImage> decode_exr_pixels(std::span<const std::byte> file, int width, int height, void (*check_time)()) {
+Result<ExrPixels> decode_exr_pixels(std::span<const std::byte> file, int width, int height, void (*check_time)()) {
     try {
         Reading stream(file);
         Imf::InputFile input(stream, 0);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace halflit {
 
@@ -16,6 +17,8 @@ bool has_exr() { return HALFLIT_HAS_OPENEXR != 0; }
 namespace io {
 
 namespace {
+
+constexpr float kLargestHalf = 65504.0f;
 
 /// The functions of OpenEXR.
 Result<const detail::CodecLibraries*> open_exr() {
@@ -43,10 +46,15 @@ Result<FloatImage> decode_exr(std::span<const std::byte> file, const FloatImageL
     if (!library) return tl::unexpected(library.error());
     const auto header = detail::read_exr_header(file, limits);
     if (!header) return tl::unexpected(header.error());
-    Result<FloatImage> image =
+    auto pixels =
         in_one_line((*library)->decode_exr(file, static_cast<int>(header->width), static_cast<int>(header->height), [] { check_time(); }));
-    if (!image) return image;
-    if (auto ok = check_numbers(*image); !ok) return tl::unexpected(ok.error());
+    if (!pixels) return tl::unexpected(pixels.error());
+    FloatImage image{static_cast<int>(header->width), static_cast<int>(header->height), std::move(pixels->rgb)};
+    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        const float value = light_of(image.rgb[i]);
+        image.rgb[i] = pixels->is_half[i % 3] && value > kLargestHalf ? kLargestHalf : value;
+    }
+    if (auto ok = check_numbers(image); !ok) return tl::unexpected(ok.error());
     return image;
 }
 

@@ -1,18 +1,12 @@
 // OpenEXR pictures (.exr), by the library OpenEXR. It is optional: a build without it refuses these files by name.
 #pragma once
 
+#include "apps/io/codecs/codec_libraries.hpp"
 #include "apps/io/pictures/float_image.hpp"
 
 #include <cstdint>
 
 namespace halflit::io {
-
-/// One channel of a picture to write: floats, those of neighbouring pixels `step` floats apart, rows after one another, the top row first.
-struct ExrChannel {
-    const char* name;  ///< such as "R"
-    const float* data;
-    int step;
-};
 
 [[nodiscard]] bool is_exr(std::span<const std::byte> file);
 

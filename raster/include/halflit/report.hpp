@@ -52,7 +52,6 @@ struct ShareBudget {
 };
 inline constexpr ShareBudget kFastQuality{2, 99};   ///< --quality fast
 inline constexpr ShareBudget kDraftQuality{8, 95};  ///< --quality draft
-inline constexpr double kWideBudget = 4;            ///< codes, from which on all cheaper settings are tried together first
 
 /// The cheapest settings that keep a ShareBudget, and how far probes show that they do.
 struct MeasuredShare {

@@ -70,11 +70,11 @@ bool has_direction(const T& v) {
     return length2 > 1e-30f && length2 < 1e30f;
 }
 
-/// Finite, but with a square that float does not hold. (What is as short stands for 0.)
+/// Finite, and too long for has_direction(). (What is too short stands for 0.)
 template <class T>
 bool is_long(const T& v) {
     const double square = dot(Vec3d{v.x, v.y, v.z}, Vec3d{v.x, v.y, v.z});
-    return square >= 1e30 && square < std::numeric_limits<double>::infinity();
+    return square > 0.99e30 && square < std::numeric_limits<double>::infinity();
 }
 
 template <class T>
@@ -165,13 +165,13 @@ template void mend_deltas(Document&, const std::string&, const char*, std::vecto
 template void mend_deltas(Document&, const std::string&, const char*, std::vector<Vec4f>&);
 
 void mend_directions(Document& document, const std::string& list, Mesh& mesh) {
+    shorten(mesh.normals);
+    shorten(mesh.tangents);
     if (document.options.strict) {
         refuse_not_finite(list, "NORMAL", mesh.normals);
         refuse_not_finite(list, "TANGENT", mesh.tangents);
         return;
     }
-    shorten(mesh.normals);
-    shorten(mesh.tangents);
     const auto lacking = [](const auto& v) { return !has_direction(v); };
     const std::size_t normals = count_of(mesh.normals, lacking), tangents = count_of(mesh.tangents, lacking);
     const auto warn = [&](const char* name, std::size_t count, std::size_t of, const char* instead) {
