@@ -203,8 +203,9 @@ Result<std::vector<TradeRow>> TradeBench::measure(const std::vector<TradeChoice>
     auto exact = draw(space_.exact());
     if (!exact) return tl::unexpected(exact.error());
     exact_ = std::move(*exact);
-    // The first frame of exact is not measured: it allocates memory, and caches are cold.
-    if (const auto warm = time_of(exact_renderer_, space_.exact()); !warm) return tl::unexpected(warm.error());
+    // The first frames are not measured: they allocate memory, and caches are cold.
+    for (Renderer* const renderer : {&exact_renderer_, &renderer_, &exact_renderer_, &renderer_})
+        if (const auto warm = time_of(*renderer, space_.exact()); !warm) return tl::unexpected(warm.error());
     for (const TradeChoice& choice : choices)
         if (const auto added = add(measure_choice(choice)); !added) return tl::unexpected(added.error());
     exact_ms_ = median(exact_cpu_times_);

@@ -5,6 +5,7 @@
 #include "apps/halflit/program/messages.hpp"
 #include "apps/halflit/program/progress_line.hpp"
 #include "apps/halflit/program/text_file.hpp"
+#include "apps/io/platform/process.hpp"
 #include "apps/lab/trade_report.hpp"
 
 #include <algorithm>
@@ -45,6 +46,7 @@ Result<void> write_all(const std::vector<TradeRow>& rows, const TradeBench& benc
 Result<int> run_trade(TradeOptions options) {
     if (options.quick && options.all) return fail(ErrorCode::usage, "--all: cannot be combined with --quick");
     options.settings.shading.accuracy = Accuracy::reference;  // keeps the environment's image
+    if (options.max_memory_bytes == 0) platform::prepare_heap();
     auto job = make_render_job(options, kTradeSize);
     if (!job) return tl::unexpected(job.error());
     if (const auto folder = make_folder(options.folder); !folder) return tl::unexpected(folder.error());

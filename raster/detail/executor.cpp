@@ -12,6 +12,7 @@
 #include <thread>
 
 #if defined(__unix__) || defined(__APPLE__)
+#include <pthread.h>
 #include <unistd.h>
 #endif
 #ifdef __linux__
@@ -103,10 +104,39 @@ private:
     /// Requires: mutex_ is locked.
     void start_more(int wanted) {
         try {
-            for (; started_ < wanted; ++started_, ++idle_) std::thread([this] { wait_for_loops(); }).detach();
+            for (; started_ < wanted && start_one(); ++started_, ++idle_) {
+            }
         } catch (const std::system_error&) {
         }
     }
+
+#if defined(__unix__) || defined(__APPLE__)
+    /// With a stack that tasks need: those of 8 MB by default would count against a limit of memory, 64 of them half a gigabyte.
+    bool start_one() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+        constexpr std::size_t kStack = 8 << 20;
+#else
+        constexpr std::size_t kStack = 512 << 10;
+#endif
+        pthread_attr_t how;
+        if (pthread_attr_init(&how) != 0) return false;
+        pthread_attr_setstacksize(&how, kStack);
+        pthread_attr_setdetachstate(&how, PTHREAD_CREATE_DETACHED);
+        pthread_t thread;
+        const auto wait = [](void* threads) -> void* {
+            static_cast<Threads*>(threads)->wait_for_loops();
+            return nullptr;
+        };
+        const int refused = pthread_create(&thread, &how, wait, this);
+        pthread_attr_destroy(&how);
+        return refused == 0;
+    }
+#else
+    bool start_one() {
+        std::thread([this] { wait_for_loops(); }).detach();
+        return true;
+    }
+#endif
 
     void wait_for_loops() {
         std::unique_lock lock(mutex_);
