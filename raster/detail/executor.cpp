@@ -1,5 +1,6 @@
 #include "raster/detail/executor.hpp"
 
+#include "sh/available_cores.hpp"
 #include "sh/fp_environment.hpp"
 #include "sh/time_limit.hpp"
 
@@ -15,19 +16,8 @@
 #include <pthread.h>
 #include <unistd.h>
 #endif
-#ifdef __linux__
-#include <sched.h>
-#endif
 
 namespace halflit::raster {
-
-int available_cores() {
-#ifdef __linux__
-    cpu_set_t set;
-    if (::sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
-#endif
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 namespace {
 

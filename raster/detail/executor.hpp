@@ -23,9 +23,6 @@ private:
     const char* what_;
 };
 
-/// Processors that this process may run on.
-[[nodiscard]] int available_cores();
-
 /// Runs the parallel loops of a call. Every task runs in the library's floating-point environment. `run` rethrows the first exception of a
 /// task: a lack of memory, or an exception of one of the host's functions. It throws Stopped if the call is to end before its work is done.
 class Executor {

@@ -190,9 +190,10 @@ void soak(int frames) {
     CHECK(visible > static_cast<std::uint64_t>(frames) * kViewWidth * kViewHeight / 10);
     REQUIRE(early);
     // A Renderer keeps memory for the largest frame, which comes later than frame 100. Nothing stays without it, but for what the standard
-    // library keeps for its threads. The sanitizers keep what was freed, and have allocators of their own.
+    // library keeps for its threads. Three threads have working memory of their own, if they meet: 6 to 9 MiB. The sanitizers keep what was
+    // freed, and have allocators of their own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    CHECK(late.allocated <= early->allocated + 8);
+    CHECK(late.allocated <= early->allocated + 12);
     CHECK(late.resident <= early->resident + (frames < 1000 ? 16 : 4));
     CHECK(after.allocated <= before.allocated + 0.5);
 #endif

@@ -11,7 +11,7 @@
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/process.hpp"
-#include "raster/detail/executor.hpp"
+#include "sh/available_cores.hpp"
 
 #include <fmt/core.h>
 
@@ -120,7 +120,7 @@ public:
 private:
     static int thread_count(const ManyOptions& options) {
         const int wanted = options.each.execution.threads;
-        return wanted > 0 ? wanted : raster::available_cores();
+        return wanted > 0 ? wanted : available_cores();
     }
 
     Result<void> name_pictures() {

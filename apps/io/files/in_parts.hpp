@@ -1,7 +1,7 @@
 // Long loops on several threads.
 #pragma once
 
-#include "raster/detail/executor.hpp"
+#include "sh/available_cores.hpp"
 #include "sh/fp_environment.hpp"
 #include "sh/time_limit.hpp"
 
@@ -17,7 +17,7 @@ namespace halflit::io::detail {
 
 /// Threads that LoadOptions::threads allows.
 inline std::size_t allowed_threads(int threads) {
-    return threads > 0 ? static_cast<std::size_t>(threads) : static_cast<std::size_t>(raster::available_cores());
+    return threads > 0 ? static_cast<std::size_t>(threads) : static_cast<std::size_t>(available_cores());
 }
 
 /// Parts that loops of `count` steps are done in, on as many threads: threads, 0 for one per core; each part has at least `least` steps.
