@@ -4,7 +4,6 @@
 #include "tests/support/skip.hpp"
 
 #include "apps/io/files/optional_libraries.hpp"
-#include "apps/io/gltf/codecs/draco_mesh.hpp"
 #include "apps/io/gltf/codecs/meshopt.hpp"
 
 #include "tests/support/catch.hpp"
