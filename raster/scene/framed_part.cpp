@@ -289,7 +289,9 @@ std::vector<const Material*> common_materials(const Scene& scene) {
 void FramedVertices::measure(const Mesh& mesh) {
     bounds = {};
     blocks.clear();
+    TimeCheck check;
     for (std::size_t first = 0; first < vertices.size(); first += kBlock) {
+        check();
         const std::size_t end = std::min(first + kBlock, vertices.size());
         constexpr float kLargest = std::numeric_limits<float>::max();
         Vec3f low{kLargest, kLargest, kLargest}, high{-kLargest, -kLargest, -kLargest};

@@ -104,8 +104,12 @@ FramedVertices seen_vertices(const Scene& scene, const Mesh& mesh, const Materia
         }
     }
     if (used.empty()) used = used_vertices(mesh);
-    for (std::uint32_t v = 0; v < used.size(); ++v)
+    out.vertices.reserve(static_cast<std::size_t>(std::count(used.begin(), used.end(), true)));
+    TimeCheck check;
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        check();
         if (used[v]) out.vertices.push_back(v);
+    }
     out.measure(mesh);
     return out;
 }
