@@ -41,11 +41,10 @@ shading::Viewer viewer_of(const Camera& camera) {
 /// Error of a fragment's interpolated position, as a share of the largest coordinate: some ten roundings of float32 on each axis.
 constexpr double kPositionError = 1e-6;
 
-/// Facts that an error budget needs of a scene: distances from lights to surfaces, largest vertex colour and texture coordinate.
+/// Facts that an error budget needs of a scene: distances from lights to surfaces, and the largest vertex colour.
 shading::SceneFacts scene_facts(const PreparedData& scene, std::span<const LightPlan> lights, FramePlanMemory& memory) {
     shading::SceneFacts facts;
     facts.drawn = scene.drawn_materials();
-    facts.texels.largest_uv = scene.largest_uv();
     facts.vertex_color = scene.largest_color();
     if (memory.geometry_revision != scene.revision().geometry) memory.light_distances.clear();
     memory.geometry_revision = scene.revision().geometry;
@@ -181,11 +180,10 @@ bool uses_cells(const shading::ShadingPlan& plan) {
     return std::any_of(plan.materials.begin(), plan.materials.end(), [](const MaterialPlan& m) { return m.cells.relative > 0.0f; });
 }
 
-/// The least region that holds this one and has no cell in part, except at the picture's border.
-Region whole_cells(const Region& region, int width, int height) {
-    constexpr int kSide = shading::kCellSide;
-    const auto up = [](int v) { return (v + kSide - 1) / kSide * kSide; };
-    const int x = region.x / kSide * kSide, y = region.y / kSide * kSide;
+/// The least region that holds this one and has no square of `side` pixels in part, except at the picture's border.
+Region whole_squares(const Region& region, int side, int width, int height) {
+    const auto up = [side](int v) { return (v + side - 1) / side * side; };
+    const int x = region.x / side * side, y = region.y / side * side;
     return {x, y, std::min(up(region.x + region.width), width) - x, std::min(up(region.y + region.height), height) - y};
 }
 
@@ -208,7 +206,7 @@ void choose_point_sizes(const PreparedData& scene, const Settings& settings, int
 bool has_cloud_without_normals(const PreparedData& scene) {
     const std::span<const std::size_t> instances = scene.instances_without_normals();
     return std::any_of(instances.begin(), instances.end(),
-                       [&](std::size_t i) { return scene.source_mesh(scene.scene().instances[i].mesh).topology == Topology::points; });
+                       [&](std::size_t i) { return is_cloud(scene.source_mesh(scene.scene().instances[i].mesh)); });
 }
 
 EyeDomePlan plan_eye_dome(const PreparedData& scene, const Camera& camera, const Settings& settings, const View& view, int width,
@@ -317,12 +315,19 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
     if (auto ok = check_camera(given); !ok) return tl::unexpected<Error>(ok.error());
     if (!prepared.up_to_date()) return fail(ErrorCode::usage, "the last update of the scene failed; no frame is drawn until one succeeds");
     const Scene& scene = prepared.scene();
-    const ShadingSettings options = effective(settings.shading);
+    ShadingSettings options = effective(settings.shading);
     std::vector<LightPlan> lights = shading::plan_lights(light.all_lights());
 
     FramePlan plan;
     const Camera camera = plan.camera = drawn_camera(given, prepared);
     plan.options = options;
+    // Splats share the budget with the surfaces behind them. What the exact picture leaves out of them counts too.
+    // Over nothing, straight colours are divided by an alpha that may be small, so no more is left out there.
+    const bool is_opaque = settings.background_environment || settings.background_linear.w >= 1.0f;
+    const double for_splats =
+        prepared.has_splats() && is_opaque ? options.max_error_codes * (prepared.triangle_count() > 0 ? 0.5 : 1.0) : 0.0;
+    options.max_error_codes -= for_splats;
+    plan.splat_codes = std::max(0.0, for_splats - 2.0 * kExactSplatCodes);
     plan.picture = picture_view(camera, width, height, settings.region, tile_size, settings);
     choose_point_sizes(prepared, settings, width, height, plan.picture);
     plan.eye_dome = plan_eye_dome(prepared, camera, settings, plan.picture, width, height);
@@ -370,6 +375,11 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
                                           .for_each_row = memory.for_each_row,
                                           .looks = prepared.looks()},
                                          memory.shading);
+    if (for_splats > 0.0) {
+        ErrorBound& error = plan.shading.error;
+        error.budget = plan.options.max_error_codes;
+        if (plan.splat_codes > 0.0) error.left_out += for_splats, error.codes += for_splats;
+    }
     plan.written = plan.picture.region;
     plan.cells = uses_cells(plan.shading);
     for (std::size_t i = 0; i < plan.shading.materials.size(); ++i) {
@@ -379,9 +389,12 @@ Result<FramePlan> make_plan(const PreparedData& prepared, const Lighting& light,
         plan.looks_through |= material.transmission.looked_through;
     }
     const bool has_dome = plan.eye_dome.strength > 0.0f;
-    if (plan.looks_through || plan.cells || has_dome) {
+    if (prepared.has_splats()) plan.splat_squares = whole_squares(plan.written, kSplatTile, width, height);
+    const bool has_hidden_splats = prepared.has_splats() && prepared.triangle_count() > 0;
+    if (plan.looks_through || plan.cells || has_dome || has_hidden_splats) {
         Region drawn = with_border(plan.written, has_dome ? plan.eye_dome.radius_px : 0, width, height);
-        if (plan.cells) drawn = whole_cells(drawn, width, height);
+        if (plan.cells) drawn = whole_squares(drawn, shading::kCellSide, width, height);
+        if (has_hidden_splats) drawn = whole_squares(drawn, kSplatTile, width, height);
         if (plan.looks_through) drawn = {0, 0, width, height};
         set_region(plan.picture, drawn);
     }

@@ -35,6 +35,9 @@ struct EyeDomePlan {
     bool orthographic = false;
 };
 
+/// Codes that the exact picture may be off by for what is not drawn of splats: as much as the roundings of float32 make.
+inline constexpr double kExactSplatCodes = 1.0 / 128;
+
 struct FramePlan {
     Camera camera;  ///< drawn_camera()
     View picture;
@@ -55,6 +58,8 @@ struct FramePlan {
     bool looks_through = false;  ///< some drawn material blurs or bends it: what is behind it is drawn first, of the whole picture
     DepthMap depth;              ///< of the picture's depths
     EyeDomePlan eye_dome;
+    double splat_codes = 0;  ///< codes that splats may be off by from the exact picture
+    Region splat_squares{};  ///< whole squares of splats that hold `written`
     std::vector<EnvironmentUse> environment_uses;
     std::vector<std::string> warnings;
 };

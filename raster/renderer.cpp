@@ -148,6 +148,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     LayerBudget layers(settings, target.width, target.height);
     const bool has_dome = shades && plan.eye_dome.strength > 0.0f && only == nullptr;
     if (has_dome) eye_dome.begin(plan, executor);
+    const bool has_splats = splats.begin(scene, plan, executor);
     const PicturePass pass{{geometry, records, plan.shading.materials, raster, shade, executor.stop(), plan.shading.shadow_offset},
                            plan,
                            output,
@@ -156,22 +157,25 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
                            plan.written,
                            layers,
                            has_dome ? &eye_dome : nullptr,
+                           has_splats ? &splats : nullptr,
                            only};
     TileCounts behind_counts;
     if (shades && plan.looks_through) behind_counts = draw_behind(pass, settings, execution);
     const bool has_lines = shades && settings.edges != EdgeChoice::none && only == nullptr;
     Execution watched = execution;
-    if (has_dome || has_lines) watched.on_tile = {};  // told when the picture is done
+    if (has_dome || has_lines || has_splats) watched.on_tile = {};  // told when the picture is done
     TileCounts tiles = draw_tiles(pass, watched, shades && plan.looks_through ? 0.5 : 0.0);
     tiles.work += behind_counts.work, tiles.fragments_shaded += behind_counts.fragments_shaded;
     tiles.layers_seen += behind_counts.layers_seen;
     if (has_dome) eye_dome.shade(plan, output, executor);
+    SplatPicture::Drawn splats_drawn;
+    if (has_splats) splats_drawn = splats.draw(scene, plan, output, raster, target.width, target.height, executor);
     if (has_lines) {
         const Execution rest = with_time_left(execution, begun.lap() / 1000.0);
         if (auto ok = draw_edges(scene, plan.camera, settings, output, target.width, target.height, rest, isa); !ok)
             return tl::unexpected<Error>(ok.error());
     }
-    if ((has_dome || has_lines) && execution.on_tile)
+    if ((has_dome || has_lines || has_splats) && execution.on_tile)
         for (int tile = 0; tile < plan.picture.tile_count(); ++tile)
             if (const TileRect r = intersection(plan.picture.tile_rect(tile), pass.written); r.width > 0 && r.height > 0)
                 execution.on_tile({r.x, r.y, r.width, r.height});
@@ -181,10 +185,18 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     report.isa = isa;
     report.environment = plan.environment_uses;
     report.error = plan.shading.error;
+    if (plan.splat_codes > 0.0) {
+        // What was left out is known now, and that the exact picture leaves out some too.
+        const double less = plan.splat_codes + kExactSplatCodes - splats_drawn.left_out,
+                     rounding = 2.0 * splats_drawn.rounding;  // of both pictures
+        report.error.left_out -= less, report.error.rounding += rounding, report.error.codes += rounding - less;
+    }
     report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
     add_counts(geometry, tiles, report);
+    report.pixels_visible += splats_drawn.pixels;
     // An empty region is common; an empty whole picture is rarely intended.
     const Region& drawn = plan.written;
+    if (has_splats) return report;
     const bool whole_picture = drawn.width == target.width && drawn.height == target.height;
     if (report.triangles_submitted == 0)
         report.warnings.emplace_back("nothing to draw");

@@ -39,6 +39,7 @@ struct Renderer::Impl {
     raster::ReferenceShading reference;
     raster::Behind behind;
     raster::EyeDome eye_dome;
+    raster::SplatPicture splats;
     std::unique_ptr<EdgeDrawing> edge_drawing;  ///< only where edges are drawn
     raster::Pool<raster::TileScratch> scratch;
 

@@ -42,6 +42,7 @@ Vec3d by_lobe(const Spectrum& environment, const LobeSpectrum& lobe, std::size_t
 OrderBounds order_bounds(const Spectrum& environment, const LobeSpectrum& lobe) {
     const auto bounds = bounds_from(environment, lobe);
     OrderBounds out;
+    out.beyond = bounds[kSpectrumBands];
     for (std::size_t i = 0; i < out.by_order.size(); ++i) out.by_order[i] = bounds[i + 1];
     return out;
 }
@@ -64,6 +65,7 @@ OrderBounds BandGrid::order_bounds(const LobeSpectrum& lobe) const {
     const double factor = (1.0 + 1e-6) / sin_cos((kGridBands - 1) * distance).cos;
     const auto by_norms = bounds_from(spectrum_, lobe);
     OrderBounds out;
+    out.beyond = by_norms[kSpectrumBands];
     for (std::size_t i = 0; i < out.by_order.size(); ++i)
         out.by_order[i] = smaller(smaller(by_norms[i + 1], largest_sum[i] * factor + by_norms[kGridBands]), by_lobe(spectrum_, lobe, i));
     return out;

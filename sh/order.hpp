@@ -26,6 +26,7 @@ namespace halflit::sh {
 /// surface, (1/pi) integral of L f.
 struct OrderBounds {
     std::array<Vec3d, kMaxBands> by_order{};
+    Vec3d beyond;  ///< bound on the error when all kSpectrumBands bands are used
 };
 
 /// Bounds B_N from the norms alone.

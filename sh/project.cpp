@@ -242,4 +242,49 @@ std::vector<Vec3f> Projection::bands_on_grid(int bands, int rows, int columns) c
     return out;
 }
 
+std::vector<Vec3f> Projection::weighted_on_globe(const std::array<double, kSpectrumBands>& factors, int n) const {
+    // Columns mirror at phi = 0, where sines change their sign, and rows at the equator, where odd l - m do. So a quarter of the globe is
+    // summed, the bands first.
+    const auto rows = static_cast<std::size_t>(n), width = 2 * rows + 1, half = rows + 1, count = std::size_t{kSpectrumBands};
+    std::vector<Vec3f> out((rows + 1) * width);
+    std::vector<SinCos> around(count * half);  // [m][column]
+    for (std::size_t m = 0; m < count; ++m)
+        for (std::size_t x = 0; x < half; ++x)  // the first column is phi = -pi
+            around[m * half + x] = sin_cos(kPi * (static_cast<double>(m * x) / n - static_cast<double>(m)));
+    std::array<detail::LegendreRow, kBands> p;
+    std::vector<Vec3d> sums[2][2];  // [cosine or sine][even or odd l - m]
+    for (std::size_t row = 0; row <= rows / 2; ++row) {
+        check_time();
+        const SinCos theta = sin_cos(kPi * static_cast<double>(row) / n);
+        detail::legendre(theta.cos, row == 0 ? 0.0 : theta.sin, p);
+        for (auto& of_sign : sums)
+            for (std::vector<Vec3d>& sum : of_sign) sum.assign(half, Vec3d{});
+        for (std::size_t m = 0; m < count; ++m) {
+            Vec3d cosine[2]{}, sine[2]{};
+            for (std::size_t l = m; l < count; ++l) {
+                const double weight = factors[l] * p[m].p[l - m];
+                cosine[(l - m) % 2] = cosine[(l - m) % 2] + c_[l * l + l + m] * weight;
+                if (m > 0) sine[(l - m) % 2] = sine[(l - m) % 2] + c_[l * l + l - m] * weight;
+            }
+            for (std::size_t parity = 0; parity < 2; ++parity)
+                for (std::size_t x = 0; x < half; ++x) {
+                    sums[0][parity][x] = sums[0][parity][x] + cosine[parity] * around[m * half + x].cos;
+                    if (m > 0) sums[1][parity][x] = sums[1][parity][x] + sine[parity] * around[m * half + x].sin;
+                }
+        }
+        const auto write = [&](std::size_t at_row, std::size_t at_column, Vec3d value) {
+            out[at_row * width + at_column] = {static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
+        };
+        for (std::size_t x = 0; x < half; ++x) {
+            const Vec3d upper_cos = sums[0][0][x] + sums[0][1][x], upper_sin = sums[1][0][x] + sums[1][1][x];
+            const Vec3d lower_cos = sums[0][0][x] - sums[0][1][x], lower_sin = sums[1][0][x] - sums[1][1][x];
+            write(row, x, upper_cos + upper_sin);
+            write(row, width - 1 - x, upper_cos - upper_sin);
+            write(rows - row, x, lower_cos + lower_sin);
+            write(rows - row, width - 1 - x, lower_cos - lower_sin);
+        }
+    }
+    return out;
+}
+
 }  // namespace halflit::sh

@@ -40,6 +40,9 @@ public:
     [[nodiscard]] std::array<Vec3d, kSpectrumBands> bands_at(Vec3d direction) const;
     /// Values of the first `bands` bands at the cell centres of a grid of latitudes and longitudes: [row][column][band].
     [[nodiscard]] std::vector<Vec3f> bands_on_grid(int bands, int rows, int columns) const;
+    /// The sum of all bands, each times its factor, in the directions with the polar angles pi j / n, j = 0 .. n, and the longitudes pi i /
+    /// n, i = 0 .. 2 n, of equirect_direction: [j][i].
+    [[nodiscard]] std::vector<Vec3f> weighted_on_globe(const std::array<double, kSpectrumBands>& factors, int n) const;
 
 private:
     // Coefficients in the image's own frame, with polar axis y. radiance() rotates the bands asked for into the world's frame; norms are

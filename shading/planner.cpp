@@ -41,17 +41,16 @@ private:
 /// Reflections of surfaces that mirror no more than this, seen straight on, are taken by one lobe.
 constexpr float kFaintReflectance = 0.2f;
 
-/// budget_codes: 0: none, the environment is as exact as without one. bounded: its error in codes is needed.
-void plan_environments(const PlanInputs& inputs, double budget_codes, bool bounded, PlanMemory& memory, ShadingPlan& plan) {
+/// budget_codes: 0: none, the environment is as exact as without one.
+void plan_environments(const PlanInputs& inputs, double budget_codes, PlanMemory& memory, ShadingPlan& plan) {
     if (inputs.environment == nullptr) return;
     plan.environments.clear();
     EnvironmentOrder order;
     order.fixed = inputs.options.environment_bands;
     order.tolerance = inputs.options.environment_tolerance;
     order.exposure = inputs.exposure;
-    order.codes = budget_codes * kBudgetShares.each_environment();
-    order.bounded = bounded;
-    if (bounded) order.costs = CodeCosts(tone_growth(inputs.tone_curve));
+    order.codes = budget_codes * (plan.lights.empty() ? kBudgetShares.environment_alone : kBudgetShares.environment);
+    if (order.codes > 0.0) order.costs = CodeCosts(tone_growth(inputs.tone_curve));
     memory.environments.use(inputs.environment);
     const bool split_shadows = inputs.shadows.mode == ShadowMode::soft_split && !plan.shadow_maps.empty();
     EnvironmentPlanner planner(memory.environments, order, plan.environments);
@@ -107,48 +106,30 @@ void plan_shadows(const ShadowInputs& shadows, ShadingPlan& plan) {
     }
 }
 
-/// Spends an error budget. False if it is not kept: then the plan is the exact one, with its bound.
-bool spend_budget(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
-    using Measured = TexelFacts::Measured;
-    constexpr double kReadingsToMeasureAll = 8.0;
-    const double budget = inputs.options.max_error_codes;
-    const CodeCosts costs(tone_growth(inputs.tone_curve));
-    const ShadingPlan before = plan;
-    SceneFacts facts = *inputs.facts;
-    facts.texels.measured = Measured::nothing;
-    const auto spend = [&](double codes) { spend_error_budget(plan, codes, costs, inputs.exposure, facts, memory.fits); };
-    plan_environments(inputs, budget, true, memory, plan);
-    if (may_keep(plan, budget, facts)) {
-        const ShadingPlan with_bands = plan;
-        const double texels = texels_of(plan, facts);
-        for (const Measured measured : {Measured::nothing, Measured::ranges, Measured::all}) {
-            const double readings = measured == Measured::nothing ? 0.0 : measured == Measured::ranges ? 1.0 : kReadingsToMeasureAll;
-            if (readings * texels > facts.worth_texels) break;
-            facts.texels.measured = measured;
-            plan = with_bands;
-            spend(budget);
-            if (plan.error.within) return true;
-        }
-    }
-    plan = before;
-    plan_environments(inputs, 0.0, true, memory, plan);
-    if (looks_through(plan, facts)) {
-        plan.error.codes = plan.error.rounding = 255.0;
-        plan.error.tone_growth = costs.growth();
-    } else {
-        spend(0.0);
-    }
-    plan.error.budget = budget;
-    plan.error.within = plan.error.codes <= budget;
-    return false;
-}
-
 /// Lets the highlights of materials without a texture of roughness be curves, where that is as good as exact.
 void plan_highlights(ShadingPlan& plan, PowerFits& fits) {
     for (MaterialPlan& material : plan.materials) {
         check_time();
         if (const SpecularFit* const fit = exact_highlight(plan, material, fits)) material.specular_curve = fit->curve;
     }
+}
+
+/// Spends an error budget.
+void spend_budget(const PlanInputs& inputs, PlanMemory& memory, ShadingPlan& plan) {
+    const double budget = inputs.options.max_error_codes;
+    const CodeCosts costs(tone_growth(inputs.tone_curve));
+    const ShadingPlan before = plan;
+    SceneFacts facts = *inputs.facts;
+    facts.read_texels = !plan.lights.empty() && texels_of(plan, facts) <= facts.worth_texels;
+    const double surfaces = surfaces_in_a_pixel(plan, facts);
+    if (surfaces > 0.0) plan_environments(inputs, budget / surfaces, memory, plan);
+    if (surfaces > 0.0 && spend_error_budget(plan, budget, costs, inputs.exposure, facts, memory.fits)) return;
+    plan = before;
+    plan_environments(inputs, 0.0, memory, plan);
+    plan_highlights(plan, memory.fits);
+    plan.error = {};
+    plan.error.budget = budget;
+    plan.error.tone_growth = costs.growth();
 }
 
 }  // namespace
@@ -191,10 +172,10 @@ ShadingPlan plan_shading(const PlanInputs& inputs, PlanMemory& memory) {
     plan_shadows(inputs.shadows, plan);
     HALFLIT_ASSERT((options.max_error_codes > 0.0) == (inputs.facts != nullptr));
     if (inputs.facts != nullptr) {
-        if (spend_budget(inputs, memory, plan)) return plan;
-    } else {
-        plan_environments(inputs, 0.0, false, memory, plan);
+        spend_budget(inputs, memory, plan);
+        return plan;
     }
+    plan_environments(inputs, 0.0, memory, plan);
     if (options.accuracy == Accuracy::exact) plan_highlights(plan, memory.fits);
     return plan;
 }

@@ -4,10 +4,8 @@
 #include "halflit/texture.hpp"
 #include "shading/large_block.hpp"
 
-#include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <type_traits>
 
 namespace halflit {
 
@@ -26,41 +24,30 @@ constexpr Box box_of(int i, int size) {
     return {first, 3, {n - at, n, at + 1}, 2 * n + 1};
 }
 
-/// Rows of a level that a row of the next smaller one is made of: at most three.
-template <class Value>
-using BoxRows = const Value* const (&)[3];
-
-/// Computes row y of a level from the rows of the one above it that its box covers (the rest of `from` is not read), rounded to integers or
-/// to float. The sums of integers (at most 2^16 * 2^28) are exact, so their order does not matter.
-template <class Value, class From>
-void reduce_row(BoxRows<From> from, const TextureLevel& large, Value* to, const TextureLevel& small, int y) {
-    using Sum = std::conditional_t<std::is_floating_point_v<Value>, double, std::uint64_t>;
+/// Computes row y of a level from the rows of the one above it that its box covers: at most three; the rest of `from` is not read. The sums
+/// (at most 2^16 * 2^28) are exact, so their order does not matter.
+inline void reduce_row(const std::uint16_t* const (&from)[3], const TextureLevel& large, std::uint16_t* to, const TextureLevel& small,
+                       int y) {
     const Box rows = box_of(y, large.height);
     for (int x = 0; x < small.width; ++x) {
         const Box columns = box_of(x, large.width);
-        Sum sum[4] = {0, 0, 0, 0};
+        std::uint64_t sum[4] = {0, 0, 0, 0};
         for (std::int64_t j = 0; j < rows.count; ++j) {
-            const From* texel = from[j] + 4 * columns.first;
+            const std::uint16_t* texel = from[j] + 4 * columns.first;
             for (std::int64_t i = 0; i < columns.count; ++i, texel += 4) {
                 const std::uint64_t weight = rows.weight[j] * columns.weight[i];
-                for (int c = 0; c < 4; ++c) sum[c] += static_cast<Sum>(weight) * texel[c];
+                for (int c = 0; c < 4; ++c) sum[c] += weight * texel[c];
             }
         }
         const std::uint64_t total = rows.total * columns.total;
-        for (int c = 0; c < 4; ++c) {
-            if constexpr (std::is_floating_point_v<Value>)
-                *to++ = static_cast<Value>(sum[c] / static_cast<double>(total));
-            else
-                *to++ = static_cast<std::uint16_t>((sum[c] + total / 2) / total);
-        }
+        for (int c = 0; c < 4; ++c) *to++ = static_cast<std::uint16_t>((sum[c] + total / 2) / total);
     }
 }
 
 struct Texture::Texels {
     shading::LargeBlock<std::uint16_t> memory;
-    std::once_flag range_measured;
-    TextureRange range{};
-    std::atomic<float> storage_error{-1.0f};  ///< negative: not measured yet
+    std::once_flag least_measured;
+    std::array<std::uint16_t, 4> least{};
 };
 
 }  // namespace halflit

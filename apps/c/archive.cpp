@@ -175,6 +175,12 @@ void visit(Io& io, Lobe& lobe) {
 template <class Io>
 void visit(Io& io, Mesh& m) {
     all(io, m.name, m.positions, m.normals, m.tangents, m.uv0, m.uv1, m.colors, m.indices, m.material, m.topology);
+    bool has_splats = m.splats != nullptr;
+    visit(io, has_splats);
+    if (!has_splats) return;
+    Splats splats = m.splats != nullptr ? *m.splats : Splats{};
+    all(io, splats.rotations, splats.scales, splats.opacities, splats.degree, splats.harmonics, splats.reference, splats.linear_light);
+    if constexpr (Io::kReads) m.splats = std::make_shared<const Splats>(std::move(splats));
 }
 template <class Io>
 void visit(Io& io, Material& m) {
@@ -277,12 +283,18 @@ bool each(const List& list, const Test& test) {
     return std::all_of(list.begin(), list.end(), test);
 }
 
+bool is_sound(const Splats& s, const Mesh& mesh) {
+    if (s.degree < 0 || s.degree > 4) return false;
+    const std::size_t count = s.opacities.size(), coefficients = harmonics_per_splat(s.degree);
+    return mesh.topology == Topology::points && s.reference <= SplatReference::mip && count <= mesh.positions.size() &&
+           s.rotations.size() == count && s.scales.size() == count && s.harmonics.size() == coefficients * count;
+}
 bool is_sound(const Mesh& mesh, const Scene& scene) {
     const std::size_t n = mesh.positions.size();
     const auto fits = [n](std::size_t size) { return size == 0 || size == n; };
     return in(mesh.material, scene.materials.size()) && mesh.topology <= Topology::points && fits(mesh.normals.size()) &&
            fits(mesh.tangents.size()) && fits(mesh.uv0.size()) && fits(mesh.uv1.size()) && fits(mesh.colors.size()) &&
-           each(mesh.indices, [n](std::uint32_t i) { return i < n; });
+           each(mesh.indices, [n](std::uint32_t i) { return i < n; }) && (mesh.splats == nullptr || is_sound(*mesh.splats, mesh));
 }
 bool is_sound(const TextureUse& use, const Scene& scene) {
     const Sampler& s = use.sampler;

@@ -80,5 +80,6 @@ struct EnvironmentRequest {
 [[nodiscard]] halflit_execution default_execution();
 [[nodiscard]] halflit_target default_target();
 [[nodiscard]] halflit_mesh default_mesh();
+[[nodiscard]] halflit_splats default_splats();
 
 }  // namespace halflit::c

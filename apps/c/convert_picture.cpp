@@ -19,7 +19,8 @@ HALFLIT_ENDS_WITH(halflit_load_options, max_work);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, reserved);
 HALFLIT_ENDS_WITH(halflit_node, light);
-HALFLIT_ENDS_WITH(halflit_mesh, reserved);
+HALFLIT_ENDS_WITH(halflit_splats, reserved);
+HALFLIT_ENDS_WITH(halflit_mesh, splats);
 HALFLIT_ENDS_WITH(halflit_instance, place_rest);
 HALFLIT_ENDS_WITH(halflit_light, position_rest);
 HALFLIT_ENDS_WITH(halflit_material, reserved);
@@ -36,6 +37,7 @@ HALFLIT_ENDS_WITH(halflit_measured, reserved);
 
 // The constants are the numbers of the enumerations.
 static_assert(HALFLIT_TOPOLOGY_LINES == static_cast<int>(Topology::lines) && HALFLIT_TOPOLOGY_POINTS == static_cast<int>(Topology::points));
+static_assert(HALFLIT_SPLATS_KHR == static_cast<int>(SplatReference::khr) && HALFLIT_SPLATS_MIP == static_cast<int>(SplatReference::mip));
 static_assert(HALFLIT_ERROR_USAGE == static_cast<int>(ErrorCode::usage) &&
               HALFLIT_ERROR_CANCELLED == static_cast<int>(ErrorCode::cancelled));
 static_assert(HALFLIT_COLOR_LINEAR == static_cast<int>(ColorSpace::linear) && HALFLIT_ALPHA_BLEND == static_cast<int>(AlphaMode::blend));
@@ -354,7 +356,7 @@ halflit_report to_c(const RenderReport& from) {
     report.tiles_ms = from.ms.tiles;
     report.error_budget = from.error.budget;
     report.error_codes = from.error.codes;
-    report.error_within = from.error.within;
+    report.error_within = 1;
     report.triangles_submitted = from.triangles_submitted;
     report.triangles_drawn = from.triangles_drawn;
     report.triangles_not_finite = from.triangles_not_finite;

@@ -267,4 +267,10 @@ halflit_mesh default_mesh() {
     return mesh;
 }
 
+halflit_splats default_splats() {
+    halflit_splats splats{};
+    splats.size = sizeof splats;
+    return splats;
+}
+
 }  // namespace halflit::c

@@ -95,6 +95,28 @@ std::vector<T> copied(const float* from, std::size_t count) {
     return values;
 }
 
+/// Gaussians around `count` positions.
+Result<Splats> make_splats(const halflit_splats* pointer, std::size_t count) {
+    const auto given = read_struct(pointer, default_splats(), "halflit_splats");
+    if (!given) return tl::unexpected<Error>(given.error());
+    Splats made;
+    Members members("halflit_splats");
+    members.read(given->degree, 4, "degree", made.degree);
+    members.read(given->reference, SplatReference::mip, "reference", made.reference);
+    made.linear_light = given->linear_light != 0;
+    const auto channels = harmonics_per_splat(made.degree);
+    const std::pair<const float*, const char*> arrays[] = {
+        {given->rotations, "rotations"}, {given->scales, "scales"}, {given->opacities, "opacities"}, {given->harmonics, "harmonics"}};
+    for (const auto& [array, name] : arrays)
+        if (array == nullptr && count > 0) members.wrong(name, "is null");
+    if (!members.result()) return tl::unexpected<Error>(members.result().error());
+    made.rotations = copied<Vec4f>(given->rotations, count);
+    made.scales = copied<Vec3f>(given->scales, count);
+    made.opacities = copied<float>(given->opacities, count);
+    made.harmonics = copied<float>(given->harmonics, channels * count);
+    return made;
+}
+
 Result<Mesh> make_mesh(const Scene& scene, const halflit_mesh* pointer) {
     const auto given = read_struct(pointer, default_mesh(), "halflit_mesh");
     if (!given) return tl::unexpected<Error>(given.error());
@@ -135,7 +157,14 @@ Result<Mesh> make_mesh(const Scene& scene, const halflit_mesh* pointer) {
             return faulty(ErrorCode::bad_input,
                           "index " + std::to_string(largest) + ", but the number of vertices is " + std::to_string(count));
     }
-    return mesh;
+    if (given->splats == nullptr) return mesh;
+    if (topology != Topology::points || given->normals || given->tangents || given->uv0 || given->uv1 || given->colors || given->indices)
+        return faulty(ErrorCode::usage, "splats: expected points without other arrays");
+    auto splats = make_splats(given->splats, count);
+    if (!splats) return tl::unexpected<Error>(splats.error());
+    Mesh made = make_splat_mesh(std::move(mesh.positions), std::move(*splats));
+    made.name = std::move(mesh.name), made.material = mesh.material;
+    return made;
 }
 
 }  // namespace
@@ -216,6 +245,10 @@ int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const ha
 
 // ---- meshes and instances ----------------------------------------------------------------------------------------------
 
+int32_t halflit_splats_init(halflit_splats* splats, size_t size) {
+    return guarded(__func__, {{splats, "splats"}}, [&] { return write_struct(default_splats(), size, splats, "halflit_splats"); });
+}
+
 int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size) {
     return guarded(__func__, {{mesh, "mesh"}}, [&] { return write_struct(default_mesh(), size, mesh, "halflit_mesh"); });
 }
@@ -259,6 +292,8 @@ int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const fl
                         "mesh " + std::to_string(index) + ": comes from a file, and the caller does not know its vertices");
         const auto given = scene->given_meshes.find(*at);
         Mesh mesh = given != scene->given_meshes.end() ? given->second : scene->scene.meshes[*at];
+        if (mesh.splats != nullptr)
+            return fail(ErrorCode::usage, "mesh " + std::to_string(index) + ": has Gaussians, which are replaced with all their arrays");
         if (vertex_count != mesh.positions.size())
             return fail(ErrorCode::usage, "mesh " + std::to_string(index) + ": " + std::to_string(vertex_count) + " vertices, expected " +
                                               std::to_string(mesh.positions.size()));

@@ -1,5 +1,6 @@
 #include "apps/c/world.hpp"
 
+#include "apps/io/gltf/build/scaled_mesh.hpp"
 #include "apps/io/models/scaled_lengths.hpp"
 #include "sh/vec3d.hpp"
 
@@ -131,8 +132,7 @@ CallersInstance World::out(const Instance& drawn) const {
 
 void World::into(Mesh& mesh, std::size_t index) const {
     const double size = mesh_scale(static_cast<int>(index));
-    if (size == 1.0) return;
-    for (Vec3f& p : mesh.positions) p = to_float(to_double(p) * size);
+    if (size != 1.0) scale_lengths(mesh, size);
 }
 
 Settings World::into(Settings given) const {

@@ -150,7 +150,7 @@ Result<TradeRow> TradeBench::measure_reference(std::optional<std::size_t> lobe) 
     settings_.background_linear = job_.settings.background_linear;
     settings_.contact_shadow = job_.settings.contact_shadow;
     if (!coverage) return tl::unexpected(coverage.error());
-    references_.emplace_back(*picture, *coverage, job_.settings.tone_curve);
+    references_.emplace_back(*picture, *coverage, tone_curve());
     return row;
 }
 
@@ -163,6 +163,13 @@ Result<TradeRow> TradeBench::measure_choice(const TradeChoice& choice) {
     const TradeChoice exact = space_.exact();
     row.same = choice != exact && !choice.lobe && is_same(*picture, *exact_);
     if (const auto described = describe(row); !described) return tl::unexpected(described.error());
+    if (row.bound) {
+        TradeChoice without = choice;
+        without.max_error_codes = 0.0;
+        const auto full = draw(without);
+        if (!full) return tl::unexpected(full.error());
+        row.off_exact = TradeReference(*full, *full, tone_curve()).error_of(*picture).max;
+    }
 
     std::vector<double> times, ratios, wall_ratios;
     for (int i = 0; i < frames_; ++i) {

@@ -24,14 +24,15 @@ struct TradeRow {
     int frames = 0;
     TradeError error;
     std::optional<ErrorBound> bound;      ///< the proven bound, if the row has an error budget
+    double off_exact = 0;                 ///< with a bound: largest difference from the picture without the budget, which it bounds
     std::vector<std::string> lobe_paths;  ///< methods for lobes t^n, with the tier of their polynomials if any
     std::string specular_tier;            ///< tier of the polynomials for highlights cos^s, or "curve"; empty without highlights
     std::vector<int> orders;              ///< numbers of bands in use for the environment
     bool front = false;                   ///< true on the Pareto front: no other row of its lobe beats it in both time and error
     int number = 0;                       ///< place on the front by time, from 1; 0: not on the front
 
-    /// The measured error is within the bound; true for a row without one.
-    [[nodiscard]] bool kept() const { return !bound || error.max <= bound->codes; }
+    /// The measured difference is within the bound; true for a row without one.
+    [[nodiscard]] bool kept() const { return !bound || off_exact <= bound->codes; }
 };
 
 /// Marks each lobe's Pareto front in (ratio, error.p999): a row is left out if another one of its lobe is no larger in both and smaller in
@@ -58,6 +59,8 @@ public:
     [[nodiscard]] double exact_ms() const { return exact_ms_; }
 
 private:
+    /// Curve over the light of pictures. Where there are 3D Gaussians alone, they are codes already.
+    [[nodiscard]] ToneCurve tone_curve() const { return drawn_.triangles_submitted > 0 ? job_.settings.tone_curve : ToneCurve::none; }
     Result<void> choose(const TradeChoice& choice);
     /// Draws the job's region, with linear floats.
     Result<Image> draw(const TradeChoice& choice);

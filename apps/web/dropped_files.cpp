@@ -63,6 +63,11 @@ Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t ma
     return file;
 }
 
+// A module's memory does not shrink.
+TakenBytes::TakenBytes(std::span<std::byte> bytes) : bytes_(bytes), outer_(nullptr) {}
+TakenBytes::~TakenBytes() = default;
+void TakenBytes::before(const void* /*at*/) {}
+
 ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> /*also_allowed*/) : has_base_(!base_dir.empty()) {
     folders_.push_back({-1, 0, std::move(base_dir), ""});
 }

@@ -21,18 +21,9 @@ std::shared_ptr<const shading::ImageLight> scaled_studio_light(float level) {
     const auto scale = [&](Vec3d& light) { light = light * static_cast<double>(level); };
     for (shading::LobeLight& light : parts.lobes) {
         for (Vec3d& bound : light.bounds->by_order) scale(bound);
-        scale(light.range->least), scale(light.range->most);
+        for (Vec3d& bound : light.errors->absolute) scale(bound);
+        scale(light.errors->least), scale(light.bounds->beyond);
     }
-    // The map's values are rounded, each by at most 2^-24 of itself.
-    constexpr double kRounded = 0x1p-23;
-    shading::ReflectionSteps& steps = parts.reflection_steps;
-    steps.most *= level * (1.0 + kRounded);
-    const auto widen = [&](shading::ReflectionSteps::Step& step, double per) {
-        step.absolute = step.absolute * level + steps.most * (kRounded * per);
-        step.relative += (1.0 + step.relative) * (2.0 * kRounded * per);
-    };
-    for (int k = 0; k < shading::kReflectionLevels; ++k) widen(steps.angle[k], 2.0 * parts.reflections.rows[k]);
-    for (auto& step : steps.level) widen(step, 1.0);
     for (auto& value : parts.reflections.rgba)
         for (float& channel : value) channel *= level;
     return std::make_shared<const shading::ImageLight>(std::move(parts));

@@ -35,15 +35,13 @@ void for_each_number(Parts& parts, const OnSize& on_size, const MakeRoom& make_r
         for (auto& channel : value) on_float(channel);
     const auto on_vector = [&](auto& v) { on_double(v.x), on_double(v.y), on_double(v.z); };
     for (auto& coefficient : parts.radiance.c) on_vector(coefficient);
-    for (auto& [lobe, bounds, range] : parts.lobes) {
+    for (auto& [lobe, bounds, errors, map] : parts.lobes) {
         on_double(lobe.wrap), on_double(lobe.power), on_double(lobe.scale);
         for (auto& bound : bounds->by_order) on_vector(bound);
-        on_vector(range->least), on_vector(range->most);
+        for (auto& bound : errors->absolute) on_vector(bound);
+        for (auto& share : errors->relative) on_double(share);
+        on_vector(errors->least), on_vector(bounds->beyond);
     }
-    const auto on_step = [&](auto& step) { on_double(step.absolute), on_double(step.relative); };
-    on_double(parts.reflection_steps.most);
-    for (auto& step : parts.reflection_steps.angle) on_step(step);
-    for (auto& step : parts.reflection_steps.level) on_step(step);
 }
 
 }  // namespace halflit::raster

@@ -17,7 +17,7 @@ shading::ImageLightParts studio_parts() {
             const std::int32_t rows = parts.reflections.rows[kLast];
             parts.rgb.resize(static_cast<std::size_t>(3 * parts.width * parts.height));
             parts.reflections.rgba.resize(static_cast<std::size_t>(parts.reflections.first[kLast] + (rows + 1) * (2 * rows + 1)));
-            parts.lobes.resize(kStudioLobes, {{}, sh::OrderBounds{}, shading::LightRange{}});
+            parts.lobes.resize(kStudioLobes, {{}, sh::OrderBounds{}, shading::BandErrors{}, {}});
         },
         [&](float& value) { value = std::bit_cast<float>(*floats++); }, [&](double& value) { value = std::bit_cast<double>(*doubles++); });
     return parts;

@@ -3,6 +3,7 @@
 #include "raster/detail/guarded.hpp"
 #include "raster/detail/view_math.hpp"
 #include "raster/explain/ray_hits.hpp"
+#include "raster/explain/splat_shares.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "raster/view/depth_range.hpp"
 #include "sh/mat4.hpp"
@@ -71,7 +72,9 @@ public:
         story_.bound_codes = drawn->report.error.budget > 0.0 ? drawn->report.error.codes : 0.0;
         tell_surface(planes);
         tell_ray();
+        if (data().has_splats()) tell_splats(data(), camera_, depth_of_surface(), story_);
         tell_error();
+        if (!story_.splats.empty()) return std::move(story_);
         if (const auto told = tell_lights(); !told) return tl::unexpected(told.error());
         return std::move(story_);
     }
@@ -112,6 +115,10 @@ private:
                                                                          : BackgroundKind::color;
         if (planes.instance == 0 || planes.triangle == 0) return;
         story_.shows = PixelShows::surface;
+        if (scene().meshes[static_cast<std::size_t>(scene().instances[planes.instance - 1].mesh)].splats != nullptr) {
+            story_.shows = PixelShows::splats;
+            return;
+        }
         const auto vector = [](const std::array<float, 3>& v) { return to_double(Vec3f{v[0], v[1], v[2]}); };
         story_.depth = double{planes.depth};
         story_.position = vector(planes.position);
@@ -161,7 +168,11 @@ private:
         if (story_.shows != PixelShows::surface) {
             const Ray ray = ray_of_pixel(camera_, story_.size, story_.x, story_.y);
             story_.layers = hits_along(data(), ray, RaySees::layers, kMostSurfaces);
-            if (!story_.layers.empty()) story_.shows = PixelShows::layers;
+            if (!story_.layers.empty() && story_.shows == PixelShows::background) story_.shows = PixelShows::layers;
+            if (story_.shows == PixelShows::splats) {
+                story_.behind = hits_along(data(), ray, RaySees::drawn, kMostSurfaces + story_.layers.size());
+                std::erase_if(story_.behind, [](const SurfaceOnRay& hit) { return hit.layer; });
+            }
             return;
         }
         const Ray ray = ray_to(camera_, story_.size, story_.position);
@@ -190,6 +201,13 @@ private:
         story_.behind.insert(story_.behind.begin(), hidden, plane.end());
         if (story_.layers.size() > kMostSurfaces) story_.layers.resize(kMostSurfaces);
         if (story_.behind.size() > kMostSurfaces) story_.behind.resize(kMostSurfaces);
+    }
+
+    /// Along the view axis; infinite: there is none.
+    [[nodiscard]] double depth_of_surface() const {
+        if (story_.shows == PixelShows::surface) return story_.depth;
+        if (story_.behind.empty()) return std::numeric_limits<double>::infinity();
+        return -dot(story_.behind[0].position - axis(camera_.world_from_camera, 3), axis(camera_.world_from_camera, 2));
     }
 
     /// Bound on the rounding of the position to float32, world units: some units in the last place of the largest coordinate.

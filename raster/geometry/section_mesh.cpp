@@ -1,5 +1,6 @@
 #include "raster/geometry/section_mesh.hpp"
 
+#include "raster/scene/keep_splats.hpp"
 #include "raster/scene/placed_point.hpp"
 #include "sh/mat4.hpp"
 #include "sh/time_limit.hpp"
@@ -133,6 +134,11 @@ CutPoint MeshCut::cut_point(std::uint32_t kept, std::uint32_t removed) const {
 }
 
 Left MeshCut::left() const {
+    if (mesh_.splats != nullptr) {
+        const auto end = sides_.begin() + static_cast<std::ptrdiff_t>(mesh_.splats->opacities.size());
+        const auto kept = std::count_if(sides_.begin(), end, [](Side side) { return side == Side::kept || side == Side::on; });
+        return kept == end - sides_.begin() ? Left::all : kept > 0 ? Left::some : Left::nothing;
+    }
     const std::size_t corners = corners_of(mesh_.topology);
     bool some_kept = false, some_removed = false;
     TimeCheck check;
@@ -152,7 +158,22 @@ Left MeshCut::left() const {
     return !some_removed ? Left::all : some_kept ? Left::some : Left::nothing;
 }
 
+/// Splats whose middles are kept, whole.
+Mesh MeshCut::kept_splats() const {
+    std::vector<Vec3f> positions = mesh_.positions;
+    Splats kept = *mesh_.splats;
+    TimeCheck check;
+    keep_splats(positions, kept, [&](std::size_t i) {
+        check();
+        return is_kept(static_cast<std::uint32_t>(i));
+    });
+    Mesh out = make_splat_mesh(std::move(positions), std::move(kept));
+    out.name = mesh_.name, out.material = mesh_.material;
+    return out;
+}
+
 Mesh MeshCut::kept() const {
+    if (mesh_.splats != nullptr) return kept_splats();
     KeptMesh out(mesh_);
     const std::size_t corners = corners_of(mesh_.topology);
     TimeCheck check;

@@ -45,6 +45,7 @@ public:
 private:
     enum class Side : std::uint8_t { kept, on, removed, none };  // none: not finite
 
+    [[nodiscard]] Mesh kept_splats() const;
     [[nodiscard]] bool is_kept(std::uint32_t vertex) const { return sides_[vertex] == Side::kept || sides_[vertex] == Side::on; }
     [[nodiscard]] bool is_finite(const std::uint32_t* corners, std::size_t count) const;
     [[nodiscard]] bool is_dropped_face(const std::uint32_t* corners) const;

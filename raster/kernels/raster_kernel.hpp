@@ -19,10 +19,12 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 
 #include "raster/kernels/background.hpp"
 #include "raster/kernels/bin_triangles.hpp"
+#include "raster/kernels/blend_splats.hpp"
 #include "raster/kernels/collect.hpp"
 #include "raster/kernels/cover_sweep.hpp"
 #include "raster/kernels/distances.hpp"
 #include "raster/kernels/interpolate.hpp"
+#include "raster/kernels/project_splats.hpp"
 #include "raster/kernels/rasterize.hpp"
 #include "raster/kernels/transform.hpp"
 #include "raster/kernels/vertex_records.hpp"
@@ -30,7 +32,8 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 namespace halflit::raster {
 #define HALFLIT_RASTER_KERNELS HALFLIT_CONCAT(raster_kernels_, HALFLIT_ISA)
 extern const RasterKernels HALFLIT_RASTER_KERNELS;
-const RasterKernels HALFLIT_RASTER_KERNELS = {transform,    vertex_records, bin_triangles, rasterize,  rasterize_depth, cover,
-                                              cover_layer,  cover_all,      draw_covered,  collect,    interpolate,     distances,
-                                              sweep_covers, add_grid_terms, cover_ground,  shadow_row, take_means,      shade_background};
+const RasterKernels HALFLIT_RASTER_KERNELS = {transform,   vertex_records, bin_triangles,    rasterize,      rasterize_depth,
+                                              cover,       cover_layer,    cover_all,        draw_covered,   collect,
+                                              interpolate, distances,      sweep_covers,     add_grid_terms, cover_ground,
+                                              shadow_row,  take_means,     shade_background, project_splats, blend_splats};
 }  // namespace halflit::raster

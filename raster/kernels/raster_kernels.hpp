@@ -269,6 +269,73 @@ struct GroundShadow {
     double fade_px, opacity;
 };
 
+/// Splats are listed in squares of so many pixels of the picture, whatever its tiles are, and blended in blocks of them.
+inline constexpr int kSplatTile = 32, kSplatBlock = 8;
+inline constexpr int kSplatBlocksAcross = kSplatTile / kSplatBlock, kSplatBlocks = kSplatBlocksAcross * kSplatBlocksAcross,
+                     kSplatBlockPixels = kSplatBlock * kSplatBlock;
+/// A splat's alpha at a pixel is at most this.
+inline constexpr float kMostSplatAlpha = 0.99f;
+
+/// How a mesh's splats become pixels. World lengths; directions x right, y down, z ahead.
+struct SplatView {
+    double axes[3][3], origin[3];          ///< right, down and ahead of the eye, from object coordinates
+    double world[3][3], world_origin[3];   ///< the way from the eye in the world; only with by_distance
+    double turn[3][3], turn_origin[3];     ///< the way from the eye along the object's turned axes
+    double focal[2], middle[2];            ///< pixels; orthographic: pixels per unit
+    double least_slope[2], most_slope[2];  ///< at which the projection is held
+    double nearest;                        ///< least distance along the view
+    double variance;                       ///< added in the picture, square pixels
+    double least_area;               ///< of the area before over that after, whose root the opacity is multiplied by; above 1: it is not
+    float least_log2;                ///< alpha of less than 2^this is out of reach
+    int x0, y0, x1, y1;              ///< pixels that are drawn
+    bool orthographic, by_distance;  ///< by_distance: sorted by the distance from the eye, otherwise along the view
+};
+
+/// Input of project_splats: arrays of a mesh from its first splat of the batch on, as halflit/splats.hpp has them.
+struct SplatBatch {
+    const float *positions, *rotations, *scales, *opacities, *harmonics;
+    int count, degree;
+    std::uint32_t first;  ///< number of the first one
+};
+
+/// A splat in the picture; fills one line of the cache. Its alpha at a pixel is 2^(log2_opacity - u^2 - w^2), u and w being m times the way
+/// from its middle.
+struct alignas(64) SplatRecord {
+    std::int32_t x, y;         ///< pixel of its middle
+    float x_part, y_part;      ///< way from that pixel's middle to the splat's, pixels
+    float m00, m01, m10, m11;  ///< per pixel
+    float log2_opacity, color[3];
+    float z;               ///< distance along the axis of the view, world units
+    float half_x, half_y;  ///< alpha falls to 2^(log2_opacity - r^2) within r times this, pixels
+
+    /// From the splat's middle to that of a pixel.
+    HALFLIT_INLINE float way_x(int x_px) const { return static_cast<float>(x_px - x) - x_part; }
+    HALFLIT_INLINE float way_y(int y_px) const { return static_cast<float>(y_px - y) - y_part; }
+};
+
+static_assert(sizeof(SplatRecord) == 64);
+
+/// Sums over the splats of a square of pixels, block after block.
+struct SplatTile {
+    /// Index of a pixel, counted from the square's first one.
+    static constexpr int at(int x, int y) {
+        const int block = y / kSplatBlock * kSplatBlocksAcross + x / kSplatBlock;
+        return block * kSplatBlockPixels + y % kSplatBlock * kSplatBlock + x % kSplatBlock;
+    }
+    alignas(64) float color[3][kSplatTile * kSplatTile];
+    alignas(64) float passed[kSplatTile * kSplatTile];  ///< share of the light from behind that is left
+    alignas(64) float limit[kSplatTile * kSplatTile];   ///< only with `hides`: splats from this distance on are hidden
+    /// Only with `planes`: distance of the splat by which half of the light is hidden, and the number of the record that shows most.
+    alignas(64) float median[kSplatTile * kSplatTile], most_share[kSplatTile * kSplatTile];
+    alignas(64) std::int32_t most_shown[kSplatTile * kSplatTile];
+    double budget[kSplatBlocks];      ///< error of a colour in the block that is left for splats that are not drawn there
+    double rounding[kSplatBlocks];    ///< error of a colour in the block by the roundings of float32
+    float most_passed[kSplatBlocks];  ///< `passed` of the block's pixels at most
+    bool hides, planes;
+    float largest;       ///< colour of the splats and of what is behind, at least 1
+    float least_passed;  ///< blocks in which less is passed everywhere are finished
+};
+
 struct RasterKernels {
     void (*transform)(const TransformArgs&);
     void (*vertex_records)(const VertexRecordArgs&);
@@ -305,6 +372,13 @@ struct RasterKernels {
     void (*take_means)(float weight, int count, float* const rows[4]);
     /// The colours of pixels whose samples all show `back`, times alpha, and alpha, below black surfaces.
     void (*shade_background)(const float (&back)[4], const float* opacity, int samples, int count, float* const rows[4]);
+    /// Writes the records of splats that are seen, what they are sorted by, which is above 0, and, if it is not null, their numbers.
+    /// Returns how many there are. Left out are those behind or too near, beside the part that is drawn, of no area or of more than 1e38
+    /// square pixels, and 1e9 pixels away: float32 cannot tell where they show.
+    int (*project_splats)(const SplatView&, const SplatBatch&, SplatRecord*, double* distances, std::uint32_t* numbers);
+    /// Adds `count` splats, the nearest first, to the square whose first pixel is given. list: numbers of records; remaining: splats of the
+    /// square that follow. False: all blocks are finished.
+    bool (*blend_splats)(const SplatRecord*, const std::uint32_t* list, int count, std::size_t remaining, int x_px, int y_px, SplatTile&);
 };
 
 [[nodiscard]] const RasterKernels& raster_kernels(Isa isa);

@@ -115,6 +115,7 @@ void ViewGeometry::list_draws(Executor& executor) {
         const Mesh& mesh = scene_->source_mesh(instances[i].mesh);
         const auto triangles = static_cast<std::int64_t>(raster::triangle_count(mesh));
         triangle_base += triangles;
+        if (mesh.splats != nullptr) continue;
         if (mesh.topology != Topology::triangles) {
             if (size_of(view_, mesh.topology) == 0) continue;
             vertex_count_ = (vertex_count_ + 3) / 4 * 4;

@@ -2,6 +2,7 @@
 
 #include "raster/passes/display_alpha.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -92,6 +93,25 @@ void Output::finish_codes(std::uint32_t* codes_of_pixels, int count) const {
         if (bgra_) std::swap(rgba[0], rgba[2]);
         std::memcpy(codes_of_pixels + i, rgba, 4);
     }
+}
+
+void Output::read_code(int x, int y, double (&rgba)[4]) const {
+    std::uint8_t code[4];
+    std::memcpy(code, codes.at(x, y), 4);
+    if (bgra_) std::swap(code[0], code[2]);
+    rgba[3] = code[3] / 255.0;
+    for (int c = 0; c < 3; ++c)
+        rgba[c] = premultiplied_ && code[3] > 0 ? std::min(1.0, code[c] / static_cast<double>(code[3])) : code[c] / 255.0;
+}
+
+void Output::write_code(int x, int y, const double (&rgba)[4]) const {
+    std::uint8_t code[4];
+    for (int c = 0; c < 4; ++c) {
+        const double value = premultiplied_ && c < 3 ? rgba[c] * rgba[3] : rgba[c];
+        code[c] = static_cast<std::uint8_t>(value * 255.0 + 0.5);
+    }
+    if (bgra_) std::swap(code[0], code[2]);
+    std::memcpy(codes.at(x, y), code, 4);
 }
 
 }  // namespace halflit::raster

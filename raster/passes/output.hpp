@@ -44,6 +44,9 @@ public:
 
     /// Turns straight RGBA codes into those that the target holds, in place.
     void finish_codes(std::uint32_t* codes_of_pixels, int count) const;
+    /// A pixel's codes / 255, straight, and its alpha, as they were written; and writes them.
+    void read_code(int x, int y, double (&rgba)[4]) const;
+    void write_code(int x, int y, const double (&rgba)[4]) const;
     /// Writes one pixel, from straight linear RGBA.
     void write_linear(int x, int y, float red, float green, float blue, float alpha) const {
         const float factor = premultiplied_ ? alpha : 1.0f;

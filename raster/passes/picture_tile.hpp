@@ -6,6 +6,7 @@
 #include "raster/passes/eye_dome.hpp"
 #include "raster/passes/output.hpp"
 #include "raster/passes/reference_shading.hpp"
+#include "raster/passes/splats.hpp"
 #include "raster/passes/tile.hpp"
 #include "raster/quality.hpp"
 
@@ -44,6 +45,7 @@ struct PicturePass {
     Region written;                     ///< pixels of the output; the picture's region may be larger
     LayerBudget& layers;
     EyeDome* eye_dome = nullptr;      ///< keeps depths; null: there is none
+    SplatPicture* splats = nullptr;   ///< keeps depths; null: there are none
     const PixelMask* only = nullptr;  ///< if there is one, other pixels are not shaded, and what is written there has no meaning
 };
 

@@ -21,6 +21,7 @@ TileCounts PictureTile::draw() {
     has_whole_ = samples_ > 1 && !layered && !empty && pass_.reference == nullptr;
     if (!empty) draw_visibility(pass_.view, tile_, scratch_, counts_);
     if (pass_.eye_dome != nullptr) pass_.eye_dome->keep(rect_, empty ? nullptr : &scratch_.buffers, pass_.view.geometry);
+    if (pass_.splats != nullptr && !empty) pass_.splats->keep(rect_, scratch_.buffers);
     if (shades_ && empty) fill_background();
     if (shades_ && !empty) clear();
     if (pass_.output.has_planes()) write_planes(empty);

@@ -155,12 +155,11 @@ void PreparedData::find_looks() {
 
 void PreparedData::collect() {
     bounds_ = {};
-    triangle_count_ = 0;
+    triangle_count_ = 0, has_splats_ = false;
     available_slots_.assign(material_count(), shading::kBaseSlots);
     drawn_materials_.assign(material_count(), false);
     object_radii_.assign(material_count(), 0.0);
-    largest_uv_ = 0;
-    largest_color_ = 1;
+    largest_color_ = largest_splat_color_ = 1;
     instances_without_normals_.clear();
     std::set<std::pair<int, std::size_t>> noted;  // mesh and material
     for (const Mesh& mesh : scene_->meshes)
@@ -170,16 +169,17 @@ void PreparedData::collect() {
         const Mesh& mesh = source_mesh(instance.mesh);
         const std::size_t material = material_of(i);
         available_slots_[material] |= slots_of(mesh);
+        has_splats_ |= mesh.splats != nullptr && instance.visible;  // also where views are fitted to none of them
         if (mesh.indices.empty() || !instance.visible) continue;
         bounds_.include(instance_bounds_[i]);
-        triangle_count_ += raster::triangle_count(mesh);
+        if (mesh.splats == nullptr) triangle_count_ += raster::triangle_count(mesh);
         drawn_materials_[material] = true;
         const Bounds& box = instance_bounds_[i];
         if (!box.empty) object_radii_[material] = std::max(object_radii_[material], static_cast<double>(box.radius()) / kRootOfThree);
         if (mesh.normals.empty() && noted.emplace(instance.mesh, material).second) instances_without_normals_.push_back(i);
         const PreparedMesh& prepared = this->mesh(instance.mesh);
-        largest_uv_ = std::max(largest_uv_, static_cast<double>(prepared.largest_uv));
         largest_color_ = std::max(largest_color_, static_cast<double>(prepared.largest_color));
+        largest_splat_color_ = std::max(largest_splat_color_, prepared.largest_splat_color);
     }
     measure_framed();
 }

@@ -59,9 +59,12 @@ public:
     [[nodiscard]] const CoplanarGroups& coplanar() const { return coplanar_; }
     /// Number of triangles over all instances.
     [[nodiscard]] std::uint64_t triangle_count() const { return triangle_count_; }
-    /// The largest magnitude of a texture coordinate, and the largest channel of a vertex colour (at least 1), of what is drawn.
-    [[nodiscard]] double largest_uv() const { return largest_uv_; }
+    /// True if some instance that is drawn is made of splats.
+    [[nodiscard]] bool has_splats() const { return has_splats_; }
+    /// The largest channel of a vertex colour of what is drawn, at least 1.
     [[nodiscard]] double largest_color() const { return largest_color_; }
+    /// The same of splats.
+    [[nodiscard]] double largest_splat_color() const { return largest_splat_color_; }
 
     // Indexed by material: those of the scene, one for meshes without a material, and looks().
     /// Union of the attribute slots of the meshes that are drawn with the material.
@@ -119,7 +122,8 @@ private:
     std::vector<CoplanarPair> coplanar_pairs_;
     CoplanarGroups coplanar_;
     std::uint64_t triangle_count_ = 0;
-    double largest_uv_ = 0, largest_color_ = 1;
+    bool has_splats_ = false;
+    double largest_color_ = 1, largest_splat_color_ = 1;
     std::vector<double> object_radii_;
     std::vector<shading::SlotMask> available_slots_;
     std::vector<bool> drawn_materials_;

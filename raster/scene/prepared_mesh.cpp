@@ -2,9 +2,11 @@
 
 #include "raster/detail/executor.hpp"
 #include "raster/detail/view_math.hpp"
+#include "sh/time_limit.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 
 namespace halflit::raster {
@@ -219,6 +221,7 @@ Mesh with_own_vertices(const Mesh& mesh) {
     Mesh out;
     out.topology = mesh.topology;
     out.material = mesh.material;
+    out.splats = mesh.splats;
     out.positions = at_indices(mesh.positions, mesh.indices);
     out.normals = at_indices(mesh.normals, mesh.indices);
     out.tangents = at_indices(mesh.tangents, mesh.indices);
@@ -266,9 +269,34 @@ bool prepare_quads(const Mesh& mesh, PreparedMesh& prepared) {
     return true;
 }
 
+/// The squares of the spherical harmonics of a direction have the sum count / 4 pi [Sloan08]: it bounds a colour by Cauchy and Schwarz.
+double largest_color_of(const Splats& splats) {
+    const auto count = static_cast<std::size_t>((splats.degree + 1) * (splats.degree + 1));
+    float largest = 0.0f;
+    TimeCheck check;
+    for (std::size_t i = 0; i < splats.opacities.size(); ++i) {
+        check();
+        const float* const c = splats.harmonics.data() + 3 * count * i;
+        float red = 0.0f, green = 0.0f, blue = 0.0f;
+        for (std::size_t k = 0; k < 3 * count; k += 3) red += c[k] * c[k], green += c[k + 1] * c[k + 1], blue += c[k + 2] * c[k + 2];
+        largest = std::max({largest, red, green, blue});
+    }
+    constexpr double kPerCoefficient = 0.079577471545947673, kMost = 1e6;  // 1 / 4 pi; the kernels hold colours at kMost
+    return std::clamp(0.5 + 1.001 * std::sqrt(kPerCoefficient * static_cast<double>(count) * static_cast<double>(largest)), 1.0, kMost);
+}
+
 const char* what_is_wrong(const Mesh& mesh) {
     const std::size_t n = mesh.positions.size();
     if (mesh.topology > Topology::points) return "topology: found a value that no name stands for";
+    if (mesh.splats != nullptr) {
+        const Splats& s = *mesh.splats;
+        if (mesh.topology != Topology::points) return "splats: expected a mesh of points";
+        if (s.degree < 0 || s.degree > 4) return "splats: expected a degree from 0 to 4";
+        const auto coefficients = harmonics_per_splat(s.degree);
+        const std::size_t count = s.opacities.size();
+        if (count > n || s.rotations.size() != count || s.scales.size() != count || s.harmonics.size() != coefficients * count)
+            return "splats: an array is not as long as the opacities require, or there are fewer positions";
+    }
     if (mesh.topology == Topology::triangles && mesh.indices.size() % 3 != 0) return "the number of indices is not a multiple of three";
     if (mesh.topology == Topology::lines && mesh.indices.size() % 2 != 0) return "the number of indices of lines is not a multiple of two";
     const auto fits = [n](std::size_t size) { return size == 0 || size == n; };
@@ -283,10 +311,8 @@ const char* what_is_wrong(const Mesh& mesh) {
 Result<PreparedMesh> prepare_mesh(const Mesh& mesh, Executor& executor) {
     if (const char* wrong = what_is_wrong(mesh)) return fail(ErrorCode::bad_input, wrong);
     PreparedMesh prepared;
-    for (const std::vector<Vec2f>* set : {&mesh.uv0, &mesh.uv1})
-        prepared.largest_uv =
-            largest_of(*set, prepared.largest_uv, [](Vec2f uv) { return static_cast<float>(std::max(magnitude(uv.x), magnitude(uv.y))); });
     prepared.largest_color = largest_of(mesh.colors, 1.0f, [](Vec4f c) { return std::max({c.x, c.y, c.z}); });
+    if (mesh.splats != nullptr) prepared.largest_splat_color = largest_color_of(*mesh.splats);
     if (mesh.indices.empty()) return prepared;
     if (mesh.topology != Topology::triangles) {
         if (!prepare_quads(mesh, prepared)) return fail(ErrorCode::bad_input, "an index is not below the number of vertices");

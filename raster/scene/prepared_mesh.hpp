@@ -49,8 +49,8 @@ struct PreparedMesh {
     std::vector<Cluster> clusters;             ///< one more at the end, for its first_group
     std::vector<Bounds> superclusters;         ///< object space: box of kSuperclusterSize clusters each, in order
     std::vector<std::uint32_t> vertex_groups;  ///< numbers of the groups that each cluster reads, cluster after cluster
-    float largest_uv = 0;                      ///< the largest magnitude of a texture coordinate
     float largest_color = 1;                   ///< the largest red, green or blue of the vertex colours, at least 1
+    double largest_splat_color = 1;            ///< bound of the splats' red, green and blue from all directions, at least 1
     bool finite = true;                        ///< every used vertex is finite
     bool few_vertices = false;                 ///< below 1.5 vertices a triangle: smooth meshes have about .5, flat ones 2 or 3
     FlatFaces faces;                           ///< floors and walls, object space

@@ -65,7 +65,7 @@ CellCounts count_points(const Scene& scene, const Mat4& clip_from_world, int wid
     for (const Instance& instance : scene.instances) {
         if (!counts_for_views(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (mesh.topology != Topology::points) continue;
+        if (!is_cloud(mesh)) continue;
         const Mat4 clip_from_object = clip_from_world * instance.world_from_object;
         for (std::size_t i = 0; i < mesh.indices.size(); i += stride) {
             check();
@@ -84,7 +84,7 @@ CellCounts count_points(const Scene& scene, const Mat4& clip_from_world, int wid
 PointSizes closing_point_sizes(const Scene& scene, const Mat4& clip_from_world, int width, int height) {
     std::size_t points = 0;
     for (const Instance& instance : scene.instances)
-        if (counts_for_views(scene, instance) && scene.meshes[static_cast<std::size_t>(instance.mesh)].topology == Topology::points)
+        if (counts_for_views(scene, instance) && is_cloud(scene.meshes[static_cast<std::size_t>(instance.mesh)]))
             points += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size();
     if (points == 0) return {};
     const std::size_t stride = points / kMostCounted + 1;

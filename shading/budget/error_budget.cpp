@@ -1,7 +1,6 @@
 #include "shading/budget/error_budget.hpp"
 
 #include "sh/power.hpp"
-#include "shading/budget/layer_bounds.hpp"
 #include "shading/budget/power_fit.hpp"
 #include "shading/budget/surface_bounds.hpp"
 #include "shading/model/scalar.hpp"
@@ -29,30 +28,22 @@ double lobe_tier_codes(const CodeCosts& costs, const LobePlan& lobe, PowTier tie
 double specular_tier_codes(const CodeCosts& costs, const Surface& s, const Arriving& light, PowTier tier) {
     if (!s.specular || tier == PowTier::exact) return 0.0;
     const PowErrors errors = pow_errors(tier);
-    return costs.specular(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2, 0.0);
+    return costs.specular(s.reflectance * s.normalization * light.largest, light.count, errors.exp2, errors.log2);
 }
 
-double environment_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const Surface& s, double exposure) {
-    double codes = 0.0;
-    if (material.environment >= 0) {
-        const EnvironmentPlan& environment = plan.environments[static_cast<std::size_t>(material.environment)];
-        // Suns may shine where there is no other light.
-        codes += environment.bound_codes + costs.absolute(s.albedo * environment.sun_bound * exposure);
-    }
-    return codes;
+/// Two sums of products of the same numbers, added up in float32 and multiplied by the same factors, are apart by no more than this share.
+double rounding_codes(const CodeCosts& costs, const MaterialPlan& material, const Arriving& light) {
+    return costs.relative(1e-5 + 3e-7 * (material.lobe.power_minus_one + 1.0 + light.count));
+}
+
+/// Codes of the bands that the material's environment leaves out.
+double environment_codes(const ShadingPlan& plan, const MaterialPlan& material) {
+    return material.environment < 0 ? 0.0 : plan.environments[static_cast<std::size_t>(material.environment)].bound_codes;
 }
 
 /// True if the bound counts material i: an object is made of it, and it has a colour of its own.
 bool counts(const ShadingPlan& plan, const SceneFacts& facts, std::size_t i) {
     return facts.drawn[i] && (plan.materials[i].stages & kStageShadowCatcher) == 0;
-}
-
-/// True if `test` is true for some material that counts.
-template <class Test>
-bool any_counted(const ShadingPlan& plan, const SceneFacts& facts, const Test& test) {
-    for (std::size_t i = 0; i < plan.materials.size(); ++i)
-        if (counts(plan, facts, i) && test(plan.materials[i])) return true;
-    return false;
 }
 
 /// Half the exponent of a curve's cosine; Phong's cosine counts for a quarter of it.
@@ -127,17 +118,31 @@ bool specular_ends(const ShadingPlan& plan, const Surface& s, double largest, do
     return 40320.0 * largest * s.normalization <= threshold * z4 * z4;
 }
 
+/// Codes by which the exact picture's curve for highlights, if it has one, differs from the power, what it cuts off included.
+double exact_curve_codes(const CodeCosts& costs, const ShadingPlan& plan, const MaterialPlan& material, const Surface& s,
+                         const Arriving& light, PowerFits& fits) {
+    const SpecularFit* const fit = exact_highlight(plan, material, fits);
+    const double peak = s.reflectance * s.normalization * light.largest;
+    return fit == nullptr ? 0.0 : costs.other(fit->codes(peak, light.count)) + costs.absolute(kExactCut * peak * light.count);
+}
+
 /// Chooses the cheapest method for highlights within `budget` codes. Adds the codes that it costs to the bound.
 void spend_on_specular(const CodeCosts& costs, const ShadingPlan& plan, MaterialPlan& material, const Surface& s, const Arriving& light,
-                       double exposure, double budget, PowerFits& fits, ErrorBound& bound) {
+                       double exposure, double budget, bool with_cells, PowerFits& fits, ErrorBound& bound) {
     // Highlights below this, before the reflectance, can be left out at a cost of `codes` codes.
     const auto threshold_of = [&](double codes) { return codes / (costs.at_black() * exposure * s.reflectance * light.count); };
-    if (!roughness_varies(material)) {
+    const double peak = s.reflectance * s.normalization * light.largest;
+    std::optional<SpecularFit> exact;  // a copy, as further fits may take its place
+    if (const SpecularFit* const fit = exact_highlight(plan, material, fits)) exact = *fit;
+    const double exact_codes = exact ? costs.other(exact->codes(peak, light.count)) : 0.0;
+    if (!roughness_varies(material) && budget > 0.0) {
         const double half_exponent = half_exponent_of(plan, s.exponent);
-        const double share = threshold_of(kBudgetShares.specular_cut * budget) / (light.largest / exposure * s.normalization);
+        // What the exact curve cuts off is not there.
+        const double share = std::max(threshold_of(kBudgetShares.specular_cut * budget) / (light.largest / exposure * s.normalization),
+                                      exact ? kExactCut : 0.0);
         for (const int terms : {SpecularCurve::kFewTerms, SpecularCurve::kMostTerms}) {
             const SpecularFit& fit = fits.specular(half_exponent, share < 1.0 ? power_of(share, 1.0 / half_exponent) : 1.0, terms);
-            const double codes = costs.other(fit.codes(s.reflectance * s.normalization * light.largest, light.count));
+            const double codes = costs.other(fit.codes(peak, light.count)) + exact_codes;
             if (codes > kBudgetShares.specular_curve * budget) continue;
             material.specular_curve = fit.curve;
             bound.specular = codes;
@@ -145,6 +150,12 @@ void spend_on_specular(const CodeCosts& costs, const ShadingPlan& plan, Material
             return;
         }
     }
+    if (exact) material.specular_curve = exact->curve;
+    if (exact && with_cells) {
+        bound.specular = exact_codes;
+        bound.left_out += costs.absolute(kExactCut * peak * light.count);
+    }
+    if (exact || budget <= 0.0) return;
     material.specular_tier =
         cheapest_tier(kBudgetShares.specular_power * budget, [&](PowTier tier) { return specular_tier_codes(costs, s, light, tier); });
     bound.specular = specular_tier_codes(costs, s, light, material.specular_tier);
@@ -174,14 +185,16 @@ double cutoff_squared(const LightPlan& light, double least) {
 
 }  // namespace
 
-bool looks_through(const ShadingPlan& plan, const SceneFacts& facts) {
-    return any_counted(plan, facts, [](const MaterialPlan& material) { return material.transmission.looked_through; });
-}
-
-bool may_keep(const ShadingPlan& plan, double budget_codes, const SceneFacts& facts) {
-    return !looks_through(plan, facts) && !any_counted(plan, facts, [&](const MaterialPlan& material) {
-        return material.environment >= 0 && plan.environments[static_cast<std::size_t>(material.environment)].bound_codes > budget_codes;
-    });
+double surfaces_in_a_pixel(const ShadingPlan& plan, const SceneFacts& facts) {
+    double surfaces = 1.0;
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        if (!facts.drawn[i]) continue;
+        const MaterialPlan& material = plan.materials[i];
+        const bool transmits = (material.stages & kStageTransmission) != 0;
+        if ((material.stages & kStageShadowCatcher) != 0 || (transmits && !material.transmission.looked_through)) return 0.0;
+        if (transmits) surfaces = 2.0;
+    }
+    return surfaces;
 }
 
 double texels_of(const ShadingPlan& plan, const SceneFacts& facts) {
@@ -191,7 +204,7 @@ double texels_of(const ShadingPlan& plan, const SceneFacts& facts) {
         if (!counts(plan, facts, i)) continue;
         for (const TexturePlan& texture : plan.materials[i].textures)
             if (texture.data != nullptr && textures.insert(texture.source).second)
-                for (int l = 0; l < texture.level_count; ++l) texels += static_cast<double>(texture.width[l]) * texture.height[l];
+                texels += static_cast<double>(texture.width[0]) * texture.height[0];
     }
     return texels;
 }
@@ -205,32 +218,35 @@ const SpecularFit* exact_highlight(const ShadingPlan& plan, const MaterialPlan& 
     return fit.codes(kExactPeak, 1) <= kExactCodes ? &fit : nullptr;
 }
 
-void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
+bool spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts& costs, double exposure, const SceneFacts& facts,
                         PowerFits& fits) {
     HALFLIT_ASSERT(facts.light_attenuation.size() == plan.lights.size());
     const Arriving light = arriving(plan, exposure, facts);
-    ErrorBound worst;
+    // Light from behind glass is a mean of other surfaces' light, times at most 1: it brings the errors of the worst of them.
+    const double surfaces_seen = surfaces_in_a_pixel(plan, facts), budget = budget_codes / surfaces_seen;
+    HALFLIT_ASSERT(surfaces_seen > 0.0);
 
-    // The parts that cannot be changed, and the codes that the poorest material has left for the cutoff radii, which all materials share.
-    std::optional<ReflectionSteps> reflections;
-    if (plan.reflections.light != nullptr) reflections = plan.reflections.light->steps();
+    // The codes that the poorest material has left for the cutoff radii, which all materials share.
     std::vector<Surface> surfaces;
-    std::vector<double> rounding, fixed;
-    double poorest = budget_codes, most_reflected = 0.0;
-    for (const MaterialPlan& material : plan.materials) {
+    std::vector<double> fixed;
+    double poorest = budget, most_reflected = 0.0;
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+        const MaterialPlan& material = plan.materials[i];
         const Surface& s = surfaces.emplace_back(surface_of(plan, material, facts));
-        rounding.push_back(rounding_codes(costs, material, plan, s, light, reflections ? &*reflections : nullptr, exposure));
-        const LayerCosts layers = layer_costs(costs, plan, material, s, light, reflections ? &*reflections : nullptr, exposure, facts);
-        rounding.back() = std::min(rounding.back() + layers.codes, 255.0);
-        fixed.push_back(rounding.back() + environment_codes(costs, plan, material, s, exposure));
-        if (!counts(plan, facts, rounding.size() - 1)) continue;
-        poorest = std::min(poorest, budget_codes - fixed.back());
-        most_reflected = std::max(most_reflected,
-                                  s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0) + layers.reflected);
+        const double environment = environment_codes(plan, material);
+        fixed.push_back(environment + rounding_codes(costs, material, light));
+        if (!counts(plan, facts, i)) continue;
+        if (environment > 0.0 && fixed[i] > budget) return false;
+        // A light's absolute error is taken for colours up to 1, as is that of the light from behind glass.
+        if ((environment > 0.0 || surfaces_seen > 1.0) && s.albedo > 1.0) return false;
+        poorest = std::min(poorest, budget - fixed[i]);
+        most_reflected =
+            std::max(most_reflected, s.albedo * material.lobe.scale + (s.specular ? s.reflectance * s.normalization : 0.0) + s.layers);
     }
     double cutoff_codes = 0.0;
     if (light.local > 0 && poorest > 0.0 && most_reflected > 0.0) {
-        const double codes = kBudgetShares.cutoff * poorest, least = codes / (costs.at_black() * exposure * most_reflected * light.local);
+        const double codes = kBudgetShares.cutoff * poorest;
+        const double least = codes / (costs.at_black() * exposure * most_reflected * light.local);
         for (std::size_t i = 0; i < plan.lights.size(); ++i) {
             LightPlan& one = plan.lights[i];
             if (!kind_of(one.type).placed) continue;
@@ -241,38 +257,38 @@ void spend_error_budget(ShadingPlan& plan, double budget_codes, const CodeCosts&
         }
     }
 
+    ErrorBound worst;
     for (std::size_t i = 0; i < plan.materials.size(); ++i) {
         MaterialPlan& material = plan.materials[i];
         if (!counts(plan, facts, i)) continue;
         const Surface& s = surfaces[i];
         ErrorBound bound;
-        bound.rounding = rounding[i];
-        bound.environment = fixed[i] - rounding[i];
+        bound.environment = environment_codes(plan, material);
+        bound.rounding = fixed[i] - bound.environment;
         bound.left_out = cutoff_codes;
-        if (budget_codes == 0.0 && s.specular && light.count > 0)
-            if (const SpecularFit* const fit = exact_highlight(plan, material, fits)) {
-                bound.specular = costs.other(fit->codes(s.reflectance * s.normalization * light.largest, light.count));
-                bound.left_out += costs.absolute(kExactCut * s.reflectance * s.normalization * light.largest * light.count);
-            }
-        double left = budget_codes - fixed[i] - cutoff_codes;
-        if (left > 0.0) {
-            bound.lobes = spend_on_lobe(costs, material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);
-            left -= bound.lobes;
-            const double of_cells = may_use_cells(plan, material, s) ? kBudgetShares.cells * left : 0.0;
-            if (s.specular && light.count > 0 && !material.ggx)
-                spend_on_specular(costs, plan, material, s, light, exposure, left - of_cells, fits, bound);
-            left -= bound.specular + (bound.left_out - cutoff_codes);
-            if (of_cells > 0.0 && left > 0.0)
-                bound.cells = spend_on_cells(costs, material, s, exposure, kBudgetShares.cells_of_rest * left);
-        }
-        bound.codes = bound.rounding + bound.lobes + bound.specular + bound.environment + bound.cells + bound.left_out;
+        double left = budget - fixed[i] - cutoff_codes;
+        if (left > 0.0) bound.lobes = spend_on_lobe(costs, material, may_split(plan, material), s, light, kBudgetShares.lobe * left, fits);
+        left -= bound.lobes;
+        double of_cells = left > 0.0 && may_use_cells(plan, material, s) ? kBudgetShares.cells * left : 0.0;
+        // Cells expand highlights themselves, and so differ from the exact curve's by its error, which has to fit into the highlights'
+        // share.
+        if (of_cells > 0.0 && s.specular && exact_curve_codes(costs, plan, material, s, light, fits) > left - of_cells) of_cells = 0.0;
+        if (s.specular && light.count > 0 && !material.ggx)
+            spend_on_specular(costs, plan, material, s, light, exposure, left - of_cells, of_cells > 0.0, fits, bound);
+        left -= bound.specular + (bound.left_out - cutoff_codes);
+        if (of_cells > 0.0 && left > 0.0) bound.cells = spend_on_cells(costs, material, s, exposure, kBudgetShares.cells_of_rest * left);
+        const double parts = bound.lobes + bound.specular + bound.environment + bound.cells + bound.left_out;
+        if (parts == 0.0) continue;  // the exact picture's own numbers
+        bound.codes = bound.rounding + parts;
         if (bound.codes > worst.codes) worst = bound;
     }
-    worst.codes = std::min(worst.codes, 255.0);
+    for (double* const part :
+         {&worst.codes, &worst.rounding, &worst.lobes, &worst.specular, &worst.environment, &worst.cells, &worst.left_out})
+        *part *= surfaces_seen;
     worst.budget = budget_codes;
     worst.tone_growth = costs.growth();
-    worst.within = worst.codes <= budget_codes;
     plan.error = worst;
+    return true;
 }
 
 }  // namespace halflit::shading

@@ -3,14 +3,12 @@
 
 namespace halflit::shading {
 
-/// A budget of E codes is spent in the order of the members. Each share is a share of what the parts before it have left. Rounding comes
-/// first, because it cannot be chosen; the other parts divide the rest.
+/// A budget of E codes is spent in the order of the members. Each share is a share of what the parts before it have left.
 struct BudgetShares {
     /// Share of E for the bands that environments leave out. It is spent before the others, because the orders are picked before materials
-    /// are looked at. Bands come in whole numbers, so usually much less is used; the rest goes to the parts below.
-    double environment = 0.3;
-    /// A pixel may meet two such sums: light through the lobe, and reflected light. Each gets half.
-    [[nodiscard]] constexpr double each_environment() const { return 0.5 * environment; }
+    /// are looked at. Bands come in whole numbers, so usually much less is used; the rest goes to the parts below. Without lights there are
+    /// none, but for roundings.
+    double environment = 0.3, environment_alone = 0.95;
 
     /// Share of what the poorest material has left, for light beyond the lights' cutoff radii. One radius serves all materials, so the
     /// poorest one decides. A radius grows with the inverse square root of its share: half the share makes it only 1.4 times larger.

@@ -10,6 +10,9 @@
 namespace halflit {
 inline namespace HALFLIT_ISA_NAMESPACE {
 
+/// By how much N.L at a pixel may differ from that of exact arithmetic.
+inline constexpr float kCosineError = 5e-7f;
+
 /// A lobe over the cosines of a cell: values and derivatives at the centre, and the largest absolute values in the cell.
 struct LobeSpan {
     F value, slope, bend;         ///< f, f', f'' at the centre
@@ -168,7 +171,8 @@ HALFLIT_INLINE HighlightSpan highlight_span(const shading::ShadingPlan& frame, c
                        power_most * (k3 * (c1c1 * c1) + F(3.0f) * (k2 * (c1 * c2)) + k1 * c3)};
     // The logarithm of a highlight is as wrong as its angle, times sqrt(2 s) and more.
     const F rounding = F(4e-6f) + F(2e-6f) * vsqrt(exponent);
-    s.off = sel(smooth, F(tolerance.peak) * remainder(product(product(attenuation, cosine), power), rounding), F(shading::kNoCell));
+    const F off = remainder(product(product(attenuation, cosine), power), rounding) + F(kCosineError) * (attenuation.f * power_most);
+    s.off = sel(smooth, F(tolerance.peak) * off, F(shading::kNoCell));
     const F u = dot(normal, s.half) * inv_half;
     s.power = sel(smooth, power_of(u, F(0.5f) * chord * chord), none);
     return s;

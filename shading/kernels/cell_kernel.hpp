@@ -55,7 +55,8 @@ HALFLIT_INLINE void fit_lanes(const shading::ShadingPlan& frame, const shading::
                                  F(6.0f) * (turn2 * at.most) + F(2.0f) * (at.window * at.share * at.share),
                                  F(24.0f) * (turn2 * turn * at.most)};
         // At the edge of the dark, the light is left out.
-        F off = sel(whole, remainder(product(attenuation, lobe), F(4e-6f)), at.most * f.most), shine(0.0f);
+        F off = sel(whole, remainder(product(attenuation, lobe), F(4e-6f)) + F(kCosineError) * (at.most * f.most1), at.most * f.most);
+        F shine(0.0f);
         HighlightSpan span{};
         M expanded = one < none;
         if constexpr (kSpecular) {

@@ -1,9 +1,9 @@
 // Light from all around at a normal: two colours, or an environment as spherical harmonics of 1 to 10 bands, as polynomials in the normal's
-// components.
+// components, or as a map.
 #pragma once
 
 #include "halflit/light.hpp"
-#include "shading/kernels/vector.hpp"
+#include "shading/kernels/globe_kernel.hpp"
 #include "shading/plan/environment_plan.hpp"
 
 namespace halflit {
@@ -49,11 +49,25 @@ HALFLIT_INLINE V3 newton_environment(const shading::EnvironmentPlan& plan, int b
     return {vmax(sum.x, none), vmax(sum.y, none), vmax(sum.z, none)};
 }
 
+/// EnvironmentPlan::map at a normal of any length but 0.
+HALFLIT_INLINE V3 mapped_environment(const shading::EnvironmentPlan& plan, V3 normal) {
+    MapTaps taps;
+    map_taps(globe_point(normal, F(plan.map_turned)), F(plan.map_rows), I(0), taps);
+    Q records[kWidth];
+    for (int l = 0; l < kWidth; ++l) records[l] = bilinear(rows_of(plan.map, taps, l), weights_of(taps, l));
+    V3 out;
+    F unused;
+    lanes_of_records(records, out.x, out.y, out.z, unused);
+    return out;
+}
+
 /// Not inlined: six calls times ten orders are too much code. The components are separate arguments, because those are passed in registers.
 /// GCC 12 copies a vector of them to the stack in halves, for which the next load has to wait.
 [[gnu::noinline]] static V3 environment_light(const shading::EnvironmentPlan& plan, F x, F y, F z) {
     const V3 normal{x, y, z};
     switch (plan.bands) {
+        case 0:
+            return mapped_environment(plan, normal);
         case 1:
             return newton_environment(plan, 1, normal);
         case 2:

@@ -44,13 +44,8 @@ double largest_on_curve(const Function& f) {
 /// Largest change of a code when v >= 0 is multiplied by 1 + r or divided by it, r >= 0, with codes clamped at white.
 [[nodiscard]] double codes_of_relative(double r);
 
-/// Largest change of a code by v = A t^n, A = `amplitude`, when t is off by `t_error`. Lights with A_1, A_2.. together change it by no more
-/// than one light with the sum of these (Hoelder's inequality).
-[[nodiscard]] double codes_of_edge(double amplitude, double n, double t_error);
-
-/// Largest change of a code by highlights v = K e^-z, K = `peak`, whose logarithm is off by `constant` + `linear` z + `root` sqrt(z).
-/// `count` of them together change it by no more than one of `count` times the peak (concavity, and Cauchy and Schwarz's inequality for the
-/// root).
-[[nodiscard]] double codes_of_specular(double peak, int count, double constant, double linear, double root);
+/// Largest change of a code by highlights v = K e^-z, K = `peak`, whose logarithm is off by `constant` + `linear` z. `count` of them
+/// together change it by no more than one of `count` times the peak (concavity).
+[[nodiscard]] double codes_of_specular(double peak, int count, double constant, double linear);
 
 }  // namespace halflit::shading

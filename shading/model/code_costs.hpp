@@ -19,9 +19,8 @@ public:
         return most(std::min(codes_of_absolute(growth_.absolute * delta), growth_.other * codes_of_absolute(delta)));
     }
     [[nodiscard]] double relative(double r) const { return most(relative_growth() * codes_of_relative(r)); }
-    [[nodiscard]] double edge(double amplitude, double n, double t_error) const { return other(codes_of_edge(amplitude, n, t_error)); }
-    [[nodiscard]] double specular(double peak, int count, double constant, double linear, double root) const {
-        return other(codes_of_specular(peak, count, constant, linear, root));
+    [[nodiscard]] double specular(double peak, int count, double constant, double linear) const {
+        return other(codes_of_specular(peak, count, constant, linear));
     }
     /// Codes of an error that is neither absolute nor relative, given those without a curve.
     [[nodiscard]] double other(double codes) const { return most(growth_.other * codes); }

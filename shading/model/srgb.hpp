@@ -11,7 +11,11 @@ inline constexpr double kSrgbLinearEnd = 0.0031308, kSrgbEncodedEnd = 0.04045;
 /// may differ in the last bit between CPUs; this does not.
 constexpr double power_2_4(double x) {
     double root = 1.0;
-    for (int i = 0; i < 64; ++i) root = (4.0 * root + x / (root * root * root * root)) / 5.0;
+    for (int i = 0; i < 64; ++i) {
+        const double next = (4.0 * root + x / (root * root * root * root)) / 5.0;
+        if (next == root) break;  // all further ones are
+        root = next;
+    }
     const double cube = root * root * root;
     const double sixth = cube * cube;
     return sixth * sixth;

@@ -3,16 +3,19 @@
 
 #include "sh/basis.hpp"
 
+#include <memory>
+
 namespace halflit::shading {
 
+struct IrradianceMap;
+
 /// An environment's light through one lobe: at unit normal N the sum of c[i] Y_i(N), not below 0. c is `red`, `green`, `blue`; Y_i:
-/// sh/basis.hpp.
+/// sh/basis.hpp. Or a map.
 struct EnvironmentPlan {
-    int bands = 0;             ///< 1..10
+    int bands = 0;             ///< 1..10; 0: the map
     double bound = 0.0;        ///< bound on the error of the bands left out and of the suns: any normal, worst channel, before exposure
     bool within = true;        ///< the bound is within the tolerance asked for
-    double bound_codes = 0.0;  ///< the same error, without the suns', in 8-bit sRGB codes; only where codes were asked for
-    double sun_bound = 0.0;    ///< part of `bound`: error of replacing suns by directional lights
+    double bound_codes = 0.0;  ///< bound on the difference from the exact picture's light, in 8-bit sRGB codes
     /// Light at a zero normal, whose N.L is 0 for every direction: f(0) / pi times the integral of the radiance. The series has no meaning
     /// there.
     float at_zero_normal[3]{};
@@ -23,6 +26,11 @@ struct EnvironmentPlan {
     /// ..) + a[0]. The coefficients are in the order of use: m ascending, then the degree descending. For each there are red, green, blue
     /// of the real part and then, from m = 1 on, of the imaginary part.
     alignas(64) float newton[3 * sh::kMaxCoefficients]{};
+
+    /// IrradianceMap's values and rows; map_turned: as ReflectionPlan::turned.
+    const float* map = nullptr;
+    float map_rows = 0, map_turned = 0;
+    std::shared_ptr<const IrradianceMap> kept_map;  ///< keeps `map` alive
 };
 
 /// Nodes of the Newton form. About 0 alone (Horner's rule) the coefficients of ten bands are hundreds of times larger than the sum, and the

@@ -3,7 +3,6 @@
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "sh/zonal.hpp"
-#include "shading/model/code_bounds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -32,30 +31,43 @@ std::array<double, sh::kMaxBands> newton_form_about_nodes(const float* coefficie
     return a;
 }
 
-/// Bounds in codes on the error of leaving out bands, for 1..10 bands. An absolute error shows most on a surface that is dark otherwise.
-/// Where the light is nowhere dark, the relative error gives the smaller bound, which holds for any colour of the surface and with any
-/// other light added.
-std::array<double, sh::kMaxBands> bounds_in_codes(const Environment& environment, const sh::WrapLobe& lobe, const sh::OrderBounds& bounds,
-                                                  const EnvironmentOrder& order) {
-    const LightRange range = environment.light != nullptr ? environment.light->range(lobe) : light_range(environment.radiance, lobe);
-    const double least[3] = {range.least.x, range.least.y, range.least.z};
-    const Vec3d rest = bounds.by_order[sh::kMaxBands - 1];
-    std::array<double, sh::kMaxBands> codes{};
-    for (std::size_t n = 0; n < sh::kMaxBands; ++n) {
-        const Vec3d bound = bounds.by_order[n];
-        const double b[3] = {bound.x, bound.y, bound.z}, r[3] = {rest.x, rest.y, rest.z};
-        double absolute = 0.0, relative = 0.0, either = 0.0;  // codes, each for the worst channel; a tone curve mixes channels
-        for (int c = 0; c < 3; ++c) {
-            const double floor = least[c] - r[c], d = b[c] * order.exposure;
-            const double share = floor > b[c] ? b[c] / (floor - b[c]) : 1e6;
-            absolute = std::max(absolute, order.costs.absolute(d));
-            relative = std::max(relative, order.costs.relative(share));
-            either = std::max(either, std::min(codes_of_absolute(d), codes_of_relative(share)));
+using Channels = std::array<double, 3>;
+Channels channels_of(Vec3d v) { return {v.x, v.y, v.z}; }
+
+/// An environment's light through a lobe, with all that is known of its error.
+struct LightErrors {
+    sh::OrderBounds bounds;
+    BandErrors errors;
+    Vec3d map_error;  ///< where there is a map
+
+    /// Codes by which an error of light shows: as absolute, most on a surface that is dark otherwise; or, where the light is nowhere dark,
+    /// as a share of at least `least`, whatever the surface's colour is and whatever else shines on it.
+    [[nodiscard]] static double codes_of(const CodeCosts& costs, Vec3d error, Vec3d least, double exposure) {
+        const Channels e = channels_of(error), low = channels_of(least);
+        double absolute = 0.0, relative = 0.0;  // for the worst channel: a tone curve mixes channels
+        for (std::size_t c = 0; c < 3; ++c) {
+            absolute = std::max(absolute, costs.absolute(e[c] * exposure));
+            relative = std::max(relative, e[c] < low[c] ? costs.relative(e[c] / (low[c] - e[c])) : e[c] > 0.0 ? 255.0 : 0.0);
         }
-        codes[n] = std::min({absolute, relative, order.costs.other(either)});
+        return std::min(absolute, relative);
     }
-    return codes;
-}
+    /// Codes between the light of so many bands and all light.
+    [[nodiscard]] double error_codes(int bands, double exposure) const {
+        const Vec3d rest = bounds.by_order[sh::kMaxBands - 1];
+        return codes_of(CodeCosts{}, bounds.by_order[static_cast<std::size_t>(bands - 1)], errors.least - rest, exposure);
+    }
+    /// Codes between the light of so many bands and the map's, or that of `exact` bands.
+    [[nodiscard]] double codes_beside(int bands, int exact, const EnvironmentOrder& order) const {
+        const auto n = static_cast<std::size_t>(bands - 1);
+        if (exact == 0)
+            return codes_of(order.costs, bounds.by_order[n] + map_error, errors.least - bounds.by_order[sh::kMaxBands - 1], order.exposure);
+        if (bands >= exact) return 0.0;
+        const auto last = static_cast<std::size_t>(exact - 1);
+        const double share = errors.relative[n] + errors.relative[last], kept = 1.0 - share;
+        return std::min(order.costs.absolute(sh::largest(errors.absolute[n] + errors.absolute[last]) * order.exposure),
+                        kept > 0.0 ? order.costs.relative(share / kept) : 255.0);
+    }
+};
 
 /// Bound on the error of drawing suns as directional lights, worst channel, for the lobe f of x = N.L.
 ///
@@ -109,27 +121,39 @@ void make_newton_form(EnvironmentPlan& plan) {
 }
 
 EnvironmentPlan plan_environment(const Environment& environment, const sh::WrapLobe& lobe, const EnvironmentOrder& order) {
-    const sh::OrderBounds bounds = environment.light != nullptr ? environment.light->order_bounds(lobe) : sh::OrderBounds{};
+    LightErrors light;
+    if (environment.light != nullptr) light.bounds = environment.light->order_bounds(lobe);
     EnvironmentPlan plan;
-    std::array<double, sh::kMaxBands> codes{};
-    if (order.codes > 0 || order.bounded) codes = bounds_in_codes(environment, lobe, bounds, order);
-    if (order.codes > 0 && order.fixed == 0) {
-        plan.bands = 1;
-        while (plan.bands < sh::kMaxBands && codes[static_cast<std::size_t>(plan.bands - 1)] > order.codes) ++plan.bands;
-        plan.bound = sh::largest(bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
-    } else if (order.fixed > 0) {
+    if (order.fixed > 0) {
         plan.bands = std::min(order.fixed, sh::kMaxBands);
-        plan.bound = sh::largest(bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
     } else {
-        const sh::OrderChoice choice = sh::pick_order(bounds, order.tolerance, 1.0 / order.exposure);
-        plan.bands = choice.order;
-        plan.bound = choice.bound;
+        light.errors = environment.light != nullptr ? environment.light->band_errors(lobe) : band_errors(environment.radiance, lobe);
+        // The error is small in linear light, and in codes on a dark surface. Where ten bands are not enough, a map is taken.
+        plan.bands = sh::pick_order(light.bounds, order.tolerance, 1.0 / order.exposure).order;
+        const auto enough = [&] { return light.error_codes(plan.bands, order.exposure) <= 255.0 * order.tolerance; };
+        while (plan.bands < sh::kMaxBands && !enough()) ++plan.bands;
+        if (environment.light != nullptr && !enough()) {
+            plan.bands = 0;
+            plan.kept_map = environment.light->irradiance(lobe);
+            light.map_error = plan.kept_map->error + light.bounds.beyond;
+        }
+        for (int bands = 1, exact = plan.bands; order.codes > 0.0 && bands <= sh::kMaxBands && bands != exact; ++bands) {
+            const double codes = light.codes_beside(bands, exact, order);
+            if (codes > order.codes) continue;
+            plan.bands = bands, plan.bound_codes = codes;
+            plan.kept_map.reset();
+            break;
+        }
     }
-    plan.bound_codes = codes[static_cast<std::size_t>(plan.bands - 1)];
-    plan.sun_bound = sun_bound(environment, lobe, order.split_shadows);
-    plan.bound += plan.sun_bound;
+    if (plan.bands == 0) {
+        plan.map = plan.kept_map->rgba.data()->data();
+        plan.map_rows = static_cast<float>(plan.kept_map->rows);
+        plan.map_turned = turned_share(environment.rotate_rad);
+    }
+    plan.bound = sh::largest(plan.bands == 0 ? light.map_error : light.bounds.by_order[static_cast<std::size_t>(plan.bands - 1)]);
+    plan.bound += sun_bound(environment, lobe, order.split_shadows);
     plan.within = plan.bound * order.exposure <= order.tolerance;
-    const sh::PreconvolvedSh product = sh::convolve(environment.radiance, sh::zonal_bands(lobe), plan.bands);
+    const sh::PreconvolvedSh product = sh::convolve(environment.radiance, sh::zonal_bands(lobe), std::max(plan.bands, 1));
     // Y_0 is 1 / (2 sqrt(pi)), so the integral of the radiance over pi is its first coefficient times 2 / sqrt(pi).
     const double middle = lobe.wrap > 0.0 ? lobe.scale * power_of(lobe.wrap / (1.0 + lobe.wrap), lobe.power) : 0.0;
     const Vec3d flat = environment.radiance.c[0] * (1.1283791670955126 * middle);

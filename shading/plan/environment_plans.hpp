@@ -17,8 +17,7 @@ struct EnvironmentOrder {
     int fixed = 0;                   ///< 1..10, or 0: the smallest whose bound is within the tolerance
     double tolerance = 1.0 / 510.0;  ///< relative to display white, in linear light: half an 8-bit code
     double exposure = 1.0;           ///< display white is 1 / exposure
-    double codes = 0.0;              ///< if above 0, largest error in 8-bit sRGB codes, instead of the tolerance
-    bool bounded = false;            ///< the error in codes is asked for
+    double codes = 0.0;              ///< if above 0: largest difference from that smallest number's light, in 8-bit sRGB codes
     CodeCosts costs{};               ///< of errors in codes
     bool split_shadows = false;      ///< shadows may leave the excess of a lobe over its core
     bool operator==(const EnvironmentOrder&) const = default;

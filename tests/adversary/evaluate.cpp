@@ -2,7 +2,6 @@
 
 #include "raster/quality.hpp"
 #include "shading/reference/reference.hpp"
-#include "tests/adversary/whole_sky.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,7 @@ struct Drawn {
     RenderReport report;
 };
 
-Result<Drawn> draw(Renderer& renderer, const Trial& trial, const Scene& scene, Accuracy accuracy, double codes) {
+Result<Drawn> draw(Renderer& renderer, const Trial& trial, double codes) {
     const std::size_t pixels = static_cast<std::size_t>(trial.width) * static_cast<std::size_t>(trial.height);
     Drawn out{std::vector<float>(4 * pixels),
               std::vector<float>(3 * pixels),
@@ -25,7 +24,6 @@ Result<Drawn> draw(Renderer& renderer, const Trial& trial, const Scene& scene, A
               std::vector<std::uint32_t>(pixels),
               {}};
     Settings settings = trial.settings;
-    settings.shading.accuracy = accuracy;
     settings.shading.max_error_codes = codes;
     Target target{trial.width, trial.height, nullptr, out.linear.data()};
     target.normal = out.normal.data();
@@ -33,7 +31,7 @@ Result<Drawn> draw(Renderer& renderer, const Trial& trial, const Scene& scene, A
     target.triangle = out.triangle.data();
     Execution execution;
     execution.threads = 1;
-    auto report = renderer.render(scene, trial.camera, settings, target, execution);
+    auto report = renderer.render(trial.scene, trial.camera, settings, target, execution);
     if (!report) return tl::unexpected<Error>(report.error());
     out.report = *std::move(report);
     return out;
@@ -55,27 +53,20 @@ bool filled(const Trial& trial, const Drawn& picture, int x, int y) {
     return true;
 }
 
-/// Code distance of a value to the interval [truth - slack, truth + slack].
-double codes_off(double value, double truth, double slack) {
-    using shading::reference::srgb_code;
-    if (value > truth) return std::max(0.0, srgb_code(value) - srgb_code(truth + slack));
-    return std::max(0.0, srgb_code(truth - slack) - srgb_code(value));
-}
-
-/// Raises the verdict to the worst pixel of the picture against `truth`, RGBA as in a Target; `slack` is the error of the truth itself.
-void compare(const Trial& trial, const Drawn& picture, const std::vector<float>& truth, double slack, Truth kind, Verdict& verdict) {
+/// Raises the verdict to the worst pixel of the picture against the exact one, RGBA as in a Target.
+void compare(const Trial& trial, const Drawn& picture, const std::vector<float>& exact, Verdict& verdict) {
     const double bound = std::max(picture.report.error.codes, 1e-9);
     for (int y = 0; y < trial.height; ++y)
         for (int x = 0; x < trial.width; ++x) {
             if (!filled(trial, picture, x, y)) continue;
             for (int c = 0; c < 3; ++c) {
                 const auto i = static_cast<std::size_t>(4 * (y * trial.width + x) + c);
-                if (picture.linear[i] == truth[i]) continue;
-                const double drawn = picture.linear[i], wanted = truth[i], off = codes_off(drawn, wanted, slack);
+                if (picture.linear[i] == exact[i]) continue;
+                const double drawn = picture.linear[i], wanted = exact[i];
+                const double off = std::abs(shading::reference::srgb_code(drawn) - shading::reference::srgb_code(wanted));
                 if (!(off > verdict.measured)) continue;
                 verdict.measured = off;
                 verdict.ratio = off / bound;
-                verdict.truth = kind;
                 verdict.x = x, verdict.y = y, verdict.channel = c;
                 verdict.drawn = drawn, verdict.true_value = wanted;
             }
@@ -123,7 +114,7 @@ Verdict Judge::judge_share(const Trial& trial, const ShareBudget& budget) {
         return renderer.render(trial.scene, trial.camera, settings, target, execution);
     };
     if (const auto report = draw_codes(budgeted_, full, wanted); !report) return fail(report.error());
-    if (const auto report = draw_codes(rest_, cheaper, drawn); !report) return fail(report.error());
+    if (const auto report = draw_codes(exact_, cheaper, drawn); !report) return fail(report.error());
     int outside = 0;
     for (std::size_t i = 0; i < wanted.size(); ++i) outside += raster::differs(wanted[i], drawn[i], budget.codes) ? 1 : 0;
     verdict.claimed = measured->percent;
@@ -134,30 +125,18 @@ Verdict Judge::judge_share(const Trial& trial, const ShareBudget& budget) {
 
 Verdict Judge::judge_bound(const Trial& trial) {
     Verdict verdict;
-    const auto picture = draw(budgeted_, trial, trial.scene, Accuracy::exact, trial.settings.shading.max_error_codes);
+    const auto picture = draw(budgeted_, trial, trial.settings.shading.max_error_codes);
     if (!picture) {
         verdict.refused = picture.error().message;
         return verdict;
     }
     verdict.bound = picture->report.error;
-    // A bound of 255 codes promises nothing.
-    if (verdict.bound.codes >= 255.0 || picture->report.pixels_visible == 0) return verdict;
-    // The whole sky is the better truth where it applies, and much the quicker one: the reference prepares each environment for a second.
-    if (!whole_sky_applies(trial)) {
-        const auto truth = draw(reference_, trial, trial.scene, Accuracy::reference, 0);
-        if (truth)
-            compare(trial, *picture, truth->linear, reference_slack(trial), Truth::reference, verdict);
-        else
-            verdict.refused = truth.error().message;
-        return verdict;
-    }
-    Scene without_sky = trial.scene;
-    without_sky.environment = nullptr;
-    const auto rest = draw(rest_, trial, without_sky, Accuracy::reference, 0);
-    if (!rest) return verdict;
-    std::vector<float> sum = rest->linear;
-    const double slack = add_whole_sky(trial, picture->instance, picture->normal, sum);
-    compare(trial, *picture, sum, slack, Truth::whole_sky, verdict);
+    if (picture->report.pixels_visible == 0) return verdict;
+    const auto exact = draw(exact_, trial, 0);
+    if (exact)
+        compare(trial, *picture, exact->linear, verdict);
+    else
+        verdict.refused = exact.error().message;
     return verdict;
 }
 

@@ -15,12 +15,6 @@ enum class Promise : std::uint8_t {
     share   ///< as many pixels are within the codes of a budget that is measured as Renderer::measure claims
 };
 
-/// The reference that a picture was compared with.
-enum class Truth : std::uint8_t {
-    reference,  ///< Accuracy::reference
-    whole_sky   ///< the same without the environment, plus the environment's own image, suns included, summed pixel by pixel
-};
-
 /// Part of the bound that is largest.
 enum class Term : std::uint8_t { rounding, lobes, specular, environment, cells, left_out };
 inline constexpr int kTerms = 6;
@@ -33,14 +27,13 @@ struct Verdict {
     double held = 100;     ///< and the true one
     double measured = 0;   ///< codes, of the worst channel of the worst pixel; Promise::share: of the budget
     ErrorBound bound;
-    Truth truth = Truth::reference;
-    int x = 0, y = 0, channel = 0;  ///< of the worst pixel
-    double drawn = 0, true_value = 0;
-    std::string refused;  ///< the message if halflit refused the scene
+    int x = 0, y = 0, channel = 0;     ///< of the worst pixel
+    double drawn = 0, true_value = 0;  ///< true: of the exact picture
+    std::string refused;               ///< the message if halflit refused the scene
     [[nodiscard]] Term term() const;
     [[nodiscard]] bool broken() const { return ratio > 1.0; }
-    /// True if the picture had something to keep: a bound below 255 codes, or a share.
-    [[nodiscard]] bool promised() const { return promise == Promise::share ? claimed < 100.0 : bound.codes > 0.0 && bound.codes < 255.0; }
+    /// True if the picture had something to keep: a bound above 0, or a share.
+    [[nodiscard]] bool promised() const { return promise == Promise::share ? claimed < 100.0 : bound.codes > 0.0; }
 };
 
 /// Draws trials, one after the other. Keeps renderers, for what they remember of environments.
@@ -55,7 +48,7 @@ private:
     [[nodiscard]] Verdict judge_share(const Trial& trial, const ShareBudget& budget);
 
     Promise promise_;
-    Renderer budgeted_, reference_, rest_;
+    Renderer budgeted_, exact_;
 };
 
 }  // namespace halflit::adversary

@@ -1,7 +1,5 @@
 #include "tests/adversary/search.hpp"
 
-#include "tests/adversary/whole_sky.hpp"
-
 #include <algorithm>
 #include <chrono>
 
@@ -40,10 +38,7 @@ private:
         Found found{genome, judge_.judge(trial), ++result_.scenes};
         const Verdict& v = found.verdict;
         if (!v.refused.empty()) ++result_.refused;
-        if (v.promised()) {
-            ++result_.drawn;
-            result_.within += v.bound.within ? 1 : 0;
-        }
+        if (v.promised()) ++result_.drawn;
         if (v.ratio > result_.worst.verdict.ratio) result_.worst = found;
         Found& of_term = result_.worst_of_term[static_cast<int>(v.term())];
         if (v.ratio > of_term.verdict.ratio) of_term = found;
@@ -64,17 +59,12 @@ private:
         return best;
     }
 
-    /// The reference takes a second for each environment and lobe, so that climbs leave such scenes out.
-    [[nodiscard]] bool slow(const Trial& trial) const {
-        return options_.promise == Promise::bound && trial.scene.environment != nullptr && !whole_sky_applies(trial);
-    }
-
     void climb(Found best) {
         // A climb that is far below 1 and stays there is not worth its time.
         const Trial first = make_trial(best.genome, options_.avoid);
         GeneSet read = first.read;
         const int patience = options_.climb_steps / (first.scene.environment != nullptr ? 4 : 1);  // such scenes take long
-        int idle = best.verdict.ratio > 0 && !slow(first) ? patience : 0, steps = 0;
+        int idle = best.verdict.ratio > 0 ? patience : 0, steps = 0;
         while (idle > 0 && !over()) {
             // A broken promise may be broken worse, but not for long.
             if (best.verdict.broken()) idle = std::min(idle, 15);
@@ -82,7 +72,6 @@ private:
             const Genome genome = mutated(best.genome, read, numbers_);
             const Trial trial = make_trial(genome, options_.avoid);
             --idle, ++steps;
-            if (slow(trial)) continue;
             Found next = tried(genome, trial);
             if (!(score(next.verdict) > score(best.verdict))) continue;
             if (score(next.verdict) > 1.05 * score(best.verdict)) idle = patience;

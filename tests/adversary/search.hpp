@@ -28,8 +28,8 @@ struct Found {
 };
 
 struct SearchResult {
-    std::uint64_t scenes = 0, drawn = 0, refused = 0,
-                  within = 0;                   ///< drawn: with a bound below 255 codes and a surface in view, or a share
+    std::uint64_t scenes = 0, refused = 0;
+    std::uint64_t drawn = 0;                    ///< with a bound above 0 and a surface in view, or a share
     std::uint64_t fresh = 0, fresh_broken = 0;  ///< of the random scenes that were drawn: all, and with a broken promise
     double seconds = 0;
     Found worst;                  ///< largest ratio of all

@@ -1,6 +1,5 @@
 // Ambient light and environments of the trials.
 #include "sh/equirect.hpp"
-#include "shading/reference/irradiance.hpp"
 #include "tests/adversary/trial.hpp"
 
 #include <algorithm>
@@ -43,27 +42,13 @@ EnvironmentImage paint_sky(const SkyRecipe& r) {
     return image;
 }
 
-/// Leaves out what whole_sky_applies() refuses.
-void make_plain(Trial& trial) {
-    trial.settings.shading.specular = SpecularModel::none;
-    trial.settings.shadows = ShadowMode::off;
-    trial.settings.samples = 1;
-    for (Mesh& mesh : trial.scene.meshes) mesh.colors.clear();
-    for (Material& m : trial.scene.materials) {
-        m.textures[TextureSlot::base_color] = m.textures[TextureSlot::occlusion] = m.textures[TextureSlot::normal] = {};
-        m.alpha_mode = AlphaMode::opaque;
-        m.transmission = 0;
-        m.unlit = false;
-    }
-}
-
 struct Sky {
     EnvironmentImage image;
     EnvironmentOptions options;
     std::shared_ptr<const Environment> environment;
 };
 
-/// The reference takes most of a second for a new environment, so that a search keeps them.
+/// A new environment takes milliseconds, so that a search keeps them.
 const Sky& prepared_sky(const SkyRecipe& recipe) {
     thread_local std::list<std::pair<SkyRecipe, Sky>> known;
     for (auto i = known.begin(); i != known.end(); ++i)
@@ -99,19 +84,12 @@ void add_sky(const Genome& genome, AvoidSet avoid, Trial& trial) {
         recipe.seed = genes.seed() >> 14;
         recipe.extract = genes.chance(0.7) && (avoid & kAvoidSuns) == 0;
         const bool alone = genes.chance(0.5);
-        if (!genes.chance(0.04)) make_plain(trial);
+        genes.skip(1);
         const Sky& made = prepared_sky(recipe);
         trial.sky = made.image;
         trial.sky_options = made.options;
         if (alone) trial.scene.lights.clear();
         trial.scene.environment = made.environment;
-        trial.width = 24, trial.height = 18;  // sums over images take long
-        // One lobe for all, the default material's too, because the reference takes seconds for each.
-        // No sharper than what the truth resolves.
-        Lobe& lobe = trial.scene.materials[0].lobe;
-        lobe.power = std::min(lobe.power, shading::reference::kSharpestIntegrated);
-        trial.settings.shading.lobe = lobe;
-        for (Material& m : trial.scene.materials) m.lobe = trial.scene.materials[0].lobe;
     } else if (ambient) {
         trial.scene.ambient = {above * level, below * (0.5f * level)};
     }

@@ -799,6 +799,65 @@ static void test_points_and_lines(void) {
     free_cube(&cube);
 }
 
+/// Two Gaussians as a training program writes them: logits, logarithms, w first, and y points down.
+static const char trained[] =
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float f_dc_0\n"
+    "property float f_dc_1\nproperty float f_dc_2\nproperty float opacity\nproperty float scale_0\nproperty float scale_1\n"
+    "property float scale_2\nproperty float rot_0\nproperty float rot_1\nproperty float rot_2\nproperty float rot_3\nend_header\n"
+    "0 0 0 1.5 -1 0 0 0 0 0 1 0 0 0\n3 -2 0.5 -1 1.5 0.25 80 0 0 0 2 0 0.5 1\n";
+
+static void test_splats(void) {
+    float positions[2 * 3] = {0, 0, 0, 3, -2, 0.5f};
+    const float rotations[2 * 4] = {0, 0, 0, 1, 0, 0.5f, 1, 2}, scales[2 * 3] = {1, 1, 1, 1, 1, 1};
+    const float opacities[2] = {0.5f, 1}, harmonics[2 * 3] = {1.5f, -1, 0, -1, 1.5f, 0.25f};
+    const float upright[16] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+    halflit_scene* scene = NULL;
+    halflit_splats splats;
+    halflit_mesh mesh;
+    halflit_camera camera;
+    halflit_settings settings;
+    halflit_lighting* lighting;
+    int32_t index = -1;
+    uint64_t both, one;
+    CHECK_OK(halflit_scene_create(&scene));
+    CHECK_OK(halflit_splats_init(&splats, sizeof splats));
+    splats.rotations = rotations, splats.scales = scales, splats.opacities = opacities, splats.harmonics = harmonics;
+    CHECK_OK(halflit_mesh_init(&mesh, sizeof mesh));
+    mesh.positions = positions, mesh.vertex_count = 2, mesh.topology = HALFLIT_TOPOLOGY_POINTS, mesh.splats = &splats;
+    CHECK_OK(halflit_scene_add_mesh(scene, &mesh, &index));
+    CHECK_OK(halflit_scene_add_instance(scene, index, upright, NULL));
+    lighting = init_setup(scene, &camera, &settings);
+    both = draw(NULL, scene, lighting, &camera, &settings);
+    if (HAS_FILES) {
+        halflit_scene* file = NULL;
+        halflit_camera of_file;
+        CHECK_OK(halflit_scene_load_memory(trained, sizeof trained - 1, "two.ply", NULL, NULL, &file));
+        halflit_lighting_destroy(init_setup(file, &of_file, &settings));
+        CHECK(memcmp(of_file.world_from_camera, camera.world_from_camera, sizeof camera.world_from_camera) == 0);
+        CHECK(both != 0 && draw(NULL, file, lighting, &of_file, &settings) == both);
+        halflit_scene_destroy(file);
+    }
+    CHECK_FAILS(halflit_scene_set_vertices(scene, index, positions, NULL, 2), HALFLIT_ERROR_USAGE, "mesh 0: has Gaussians");
+    positions[3] = (float)NAN;  // that one is left out
+    CHECK_OK(halflit_scene_set_mesh(scene, index, &mesh));
+    one = draw(NULL, scene, lighting, &camera, &settings);
+    mesh.vertex_count = 1;
+    CHECK_OK(halflit_scene_set_mesh(scene, index, &mesh));
+    CHECK(one != both && draw(NULL, scene, lighting, &camera, &settings) == one);
+    mesh.normals = positions;
+    CHECK_FAILS(halflit_scene_add_mesh(scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "halflit_mesh: splats: expected points");
+    mesh.normals = NULL, mesh.topology = HALFLIT_TOPOLOGY_TRIANGLES, mesh.vertex_count = 0;
+    CHECK_FAILS(halflit_scene_add_mesh(scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "halflit_mesh: splats: expected points");
+    mesh.topology = HALFLIT_TOPOLOGY_POINTS, mesh.vertex_count = 2, splats.scales = NULL;
+    CHECK_FAILS(halflit_scene_add_mesh(scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "halflit_splats: scales is null");
+    splats.scales = scales, splats.degree = 5;
+    CHECK_FAILS(halflit_scene_add_mesh(scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "degree is 5, expected 0 to 4");
+    splats.degree = 0, splats.reference = 4;
+    CHECK_FAILS(halflit_scene_add_mesh(scene, &mesh, NULL), HALFLIT_ERROR_USAGE, "reference is 4, expected 0 to 3");
+    halflit_lighting_destroy(lighting);
+    halflit_scene_destroy(scene);
+}
+
 static void test_scenes_and_variants(void) {
     halflit_scene* scene;
     halflit_load_options options;
@@ -1895,6 +1954,7 @@ int main(void) {
     test_changed_meshes_suit_the_materials_of_their_instances();
     test_environments();
     test_points_and_lines();
+    test_splats();
     if (HAS_FILES) {
         test_loading();
         test_scenes_and_variants();

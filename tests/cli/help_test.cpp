@@ -82,7 +82,7 @@ TEST_CASE("help: the program's help lists seven commands, --help-all every one",
         CHECK(contains(page, std::string("\n  ") + name + " "));
     CHECK(contains(page, "\n  view ") == contains(all, "\n  view "));
     CHECK(contains(page, "halflit --help-all"));
-    for (const char* const name : {"bench", "sheet", "explain", "plan", "merge", "lobe", "env", "trade", "mcp"}) {
+    for (const char* const name : {"bench", "sheet", "explain", "merge", "lobe", "env", "trade", "mcp"}) {
         INFO(name);
         CHECK(!contains(page, std::string("\n  ") + name + " "));
         CHECK(contains(all, std::string("\n  ") + name + " "));

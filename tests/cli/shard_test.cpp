@@ -3,13 +3,9 @@
 #include "tests/cli/program.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
-#include "tests/support/skip.hpp"
 
 #include <array>
-#include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,15 +32,6 @@ const Strings kTurn{"render", "sphere:200", "--turntable", "7", "--size", "32x24
 Strings with(Strings words, const Strings& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
-}
-
-/// The command as sh reads it, with the program's path in front of the line's arguments.
-Outcome run_line(const TemporaryFolder& folder, const std::string& line) {
-    const std::string log = folder.file("shell.log");
-    const std::string command = fmt::format("cd '{}' && PATH='{}':$PATH && {} >'{}' 2>&1", folder.path(),
-                                            std::filesystem::path(HALFLIT_PROGRAM).parent_path().string(), line, log);
-    const int code = run_shell(command);
-    return {code, contents(log), ""};
 }
 
 }  // namespace
@@ -231,70 +218,4 @@ TEST_CASE("merge: films of two scenes, or a frame twice, are refused", "[cli][sh
     CHECK(contains(run_in(folder, {"merge", "a.json", "b.json"}).err, "which are of two"));
     CHECK(contains(run_in(folder, {"merge", "a.json", "c.json"}).err, "which have the same place in it"));
     CHECK(run_in(folder, {"merge", "a.json", "a.json"}).code == 0);
-}
-
-TEST_CASE("plan: the lines are commands that make the whole run", "[cli][shard]") {
-    if (!abilities().shell) HALFLIT_SKIP("no sh here");
-    const TemporaryFolder folder;
-    const std::string name = "it's $HOME.png";  // a shell must not read it
-    const Outcome plan = run_in(folder, {"plan", "--shards", "3", "--", "render", "sphere:100", "--size", "24", "-o", name});
-    INFO(plan.err);
-    REQUIRE(plan.code == 0);
-    const Strings lines = lines_of(plan.out);
-    REQUIRE(lines.size() == 3);
-    for (const std::string& line : lines) CHECK(run_line(folder, line).code == 0);
-    const std::size_t at = plan.err.find("halflit merge");
-    REQUIRE(at != std::string::npos);
-    const Outcome merged = run_line(folder, plan.err.substr(at, plan.err.find('\n', at) - at));
-    INFO(merged.out);
-    CHECK(merged.code == 0);
-    const std::string joined = contents(folder.file(name));
-    run_well(folder, {"render", "sphere:100", "--size", "24", "-o", name});
-    CHECK(contents(folder.file(name)) == joined);
-}
-
-TEST_CASE("plan: a scheduler's job holds the command", "[cli][shard]") {
-    const TemporaryFolder folder;
-    const auto plan_for = [&](const std::string& form) {
-        const Outcome outcome = run_in(folder, {"plan", "--for", form, "--", "render", "a b.glb", "--turntable", "36", "-o", "f{:02}.png"});
-        INFO(outcome.err);
-        REQUIRE(outcome.code == 0);
-        return outcome.out;
-    };
-    const std::string command = "halflit render 'a b.glb' --turntable 36 -o 'f{:02}.png' --report report.json --shard ";
-    CHECK(plan_for("slurm") == "#!/bin/sh\n#SBATCH --array=0-35\n#SBATCH --requeue\n" + command + "auto/36\n");
-    CHECK(plan_for("opencue") == command + "'#IFRAME#/36'\n");
-    CHECK(lines_of(plan_for("lines")).size() == 36);
-    const auto job = nlohmann::json::parse(plan_for("kubernetes"));
-    CHECK(job["spec"]["completions"] == 36);
-    CHECK(job["spec"]["completionMode"] == "Indexed");
-    const auto words = job["spec"]["template"]["spec"]["containers"][0]["command"].get<Strings>();
-    CHECK(words == Strings{"halflit", "render", "a b.glb", "--turntable", "36", "-o", "f{:02}.png", "--report", "report.json", "--shard",
-                           "auto/36"});
-}
-
-TEST_CASE("plan: a wrong command is told before it is started anywhere", "[cli][shard]") {
-    const TemporaryFolder folder;
-    const Strings words = GENERATE(Strings{"render", "demo", "--sise", "8"}, Strings{"render", "demo", "--turntable", "4", "-o", "x.gif"},
-                                   Strings{"render", "demo", "--shard", "0/2"}, Strings{"render", "--help"},
-                                   Strings{"render", "demo", "-o", "x.jpg"}, Strings{});
-    const Outcome outcome = run_in(folder, with({"plan", "--"}, words));
-    INFO(outcome.err);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.out.empty());
-}
-
-TEST_CASE("plan: GNU parallel runs what it is given", "[cli][shard]") {
-    if (run_shell("parallel --version >/dev/null 2>&1") != 0) HALFLIT_SKIP("GNU parallel is absent");
-    const TemporaryFolder folder;
-    run_well(folder, with(kTurn, {"-o", "whole/{:02}.png"}));
-    const std::string form = GENERATE("lines", "parallel");
-    const Outcome plan = run_in(folder, with({"plan", "--for", form, "--"}, with(kTurn, {"-o", "f {:02}.png"})));
-    REQUIRE(plan.code == 0);
-    write_contents(folder.file("plan.sh"), plan.out);
-    const Outcome ran = run_line(folder, form == "lines" ? "parallel <plan.sh" : "sh plan.sh");
-    INFO(ran.out);
-    CHECK(ran.code == 0);
-    for (int i = 0; i < 7; ++i)
-        CHECK(contents(folder.file(fmt::format("whole/{:02}.png", i))) == contents(folder.file(fmt::format("f {:02}.png", i))));
 }

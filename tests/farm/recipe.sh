@@ -50,7 +50,7 @@ run_recipe() {
     begin=$(date +%s.%N)
     bash -e recipe
     end=$(date +%s.%N)
-    render=$(sed -n 's/.* -- \(render .*\) > .*/\1/p' recipe)
+    render=$(sed -n 's/.*halflit \(render .*\) --shard auto.*/\1/p' recipe)
     mkdir one
     (cd one && eval "$halflit $render")
     diff <(hashes one/turn.json) <(hashes turn.*-of-*.json) || { tail -n 5 ./*.log out.* 2>/dev/null; exit 1; }

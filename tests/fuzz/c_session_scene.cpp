@@ -121,6 +121,19 @@ void Session::meshes_and_instances() {
             }
             mesh.set(&halflit_mesh::material, in_.flag() ? -1 : index());
             mesh.set(&halflit_mesh::smooth, in_.one_in(3));
+            Sized<halflit_splats> splats(in_);
+            const std::size_t degree = in_.below(5);
+            const Floats harmonics = floats(3 * (degree + 1) * (degree + 1) * vertices);
+            if (in_.one_in(4)) {
+                check(halflit_splats_init(splats.get(), splats.size()));
+                for (auto member : {&halflit_splats::rotations, &halflit_splats::scales, &halflit_splats::opacities})
+                    splats.set(member, or_null(others.data()));
+                splats.set(&halflit_splats::harmonics, or_null(harmonics.data()));
+                splats.set(&halflit_splats::degree, in_.one_in(12) ? -1 : static_cast<std::int32_t>(degree));
+                splats.set(&halflit_splats::reference, static_cast<std::int32_t>(in_.below(5)));
+                mesh.set(&halflit_mesh::topology, HALFLIT_TOPOLOGY_POINTS);
+                mesh.set(&halflit_mesh::splats, splats.get());
+            }
             std::int32_t at = 0;
             if (in_.one_in(3)) return check(halflit_scene_set_mesh(scene(), index(), or_null(mesh.get())));
             return check(halflit_scene_add_mesh(scene(), or_null(mesh.get()), or_null(&at, 3)));

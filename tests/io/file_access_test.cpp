@@ -7,7 +7,10 @@
 #include "tests/support/skip.hpp"
 #include "tests/support/system.hpp"
 
+#include <bit>
 #include <filesystem>
+#include <span>
+#include <string>
 
 using namespace halflit;
 using namespace halflit::io;
@@ -150,6 +153,30 @@ TEST_CASE("read file: errors of the file system are io errors", "[io]") {
     CHECK(read_file("NUL").error().code == ErrorCode::io);                                            // elsewhere there is none
     CHECK(read_file(folder.file("a.bin") + std::string("\0.bin", 5)).error().code == ErrorCode::io);  // not a.bin
     CHECK(read_file(folder.file("a.bin"), 2).error().code == ErrorCode::limit);
+}
+
+TEST_CASE("read file: a model whose bytes are given back while they are read is that of bytes that stay", "[io]") {
+    // Two parts of what is given back at once, and a rest.
+    constexpr std::uint32_t kTriangles = 400'000;
+    std::string stl(84 + 50 * std::size_t{kTriangles}, '\0');
+    const auto put = [&](std::size_t at, std::uint32_t value) {
+        for (int k = 0; k < 4; ++k) stl[at + static_cast<std::size_t>(k)] = static_cast<char>(value >> (8 * k) & 0xffu);
+    };
+    put(80, kTriangles);
+    for (std::uint32_t t = 0; t < kTriangles; ++t) {
+        const auto x = static_cast<float>(t % 632), y = static_cast<float>(t / 632);
+        const float corners[9] = {x, y, 0, x + 1, y, 0, x, y + 1, 1};
+        for (std::size_t i = 0; i < 9; ++i) put(84 + 50 * std::size_t{t} + 12 + 4 * i, std::bit_cast<std::uint32_t>(corners[i]));
+    }
+    const TemporaryFolder folder;
+    folder.write("grid.stl", stl);
+    const std::string whole = stl;
+    const auto from_file = load_model(folder.file("grid.stl"));
+    const auto from_memory = load_model_bytes(std::as_bytes(std::span(stl)), "grid.stl", "", {});
+    REQUIRE((from_file && from_memory));
+    CHECK(from_file->scene.meshes[0].positions == from_memory->scene.meshes[0].positions);
+    CHECK(from_file->scene.meshes[0].indices == from_memory->scene.meshes[0].indices);
+    CHECK((stl == whole));
 }
 
 TEST_CASE("uri: data URIs decode as RFC 4648 says, and broken ones are refused", "[io]") {

@@ -159,6 +159,20 @@ TEST_CASE("surveys: models far from the origin are drawn as at the origin", "[io
     }
 }
 
+TEST_CASE("surveys: what float32 positions are moved by is a float32 number", "[io]") {
+    // The middle, 1e6 + .53125, is half-way between two of them.
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "1000000 0 0\n1000001.0625 0 0\n1000000 1 0\n3 0 1 2\n";
+    const LoadedScene loaded = load_any_ok(to_bytes(text));
+    const Instance& instance = loaded.scene.instances[0];
+    const Vec3f first = loaded.scene.meshes[0].positions[0];
+    const double drawn_at = double{first.x} + double{instance.world_from_object.c[3].x};
+    CHECK(loaded.placement.origin.x > 9e5);
+    CHECK(drawn_at == 1e6 - loaded.placement.origin.x);
+}
+
 TEST_CASE("surveys: without recentring the file's own numbers are kept, rounded", "[io]") {
     LoadOptions as_stored;
     as_stored.recentre = false;

@@ -192,7 +192,7 @@ class Meshes(unittest.TestCase):
     def test_what_is_no_mesh_is_named(self):
         (corners, faces), *_ = meshes(1)
         for given, said in (
-            ([3], "mesh 0: expected .vertices, faces. or a dict of arguments of add_mesh.., found 3"),
+            ([3], "mesh 0: expected .vertices, faces., Splats or a dict of arguments of add_mesh.., found 3"),
             ([(corners, faces), None], "mesh 1: expected .*, found None"),
             ([(corners, faces, 1)], "mesh 0: expected .vertices, faces."),
             (["ab"], "mesh 0: expected .*, found 'ab'"),

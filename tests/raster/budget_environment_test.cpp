@@ -112,7 +112,7 @@ TEST_CASE("environment budget: a sun drawn as a directional light keeps to the b
         REQUIRE(exact.report.environment.size() == 1);
         const EnvironmentUse& use = exact.report.environment[0];
         const ErrorBound& bound = bounded.report.error;
-        const double error = largest_difference(exact, truth).linear, codes = largest_difference(bounded, truth).codes;
+        const double error = largest_difference(exact, truth).linear, codes = largest_difference(bounded, exact).codes;
         INFO("w " << lobe.wrap << ", n " << lobe.power << ", radius " << radius << ": off by " << error << ", bound " << use.bound
                   << "; codes " << codes << ", bound " << bound.codes << "; references apart " << apart);
         CHECK(apart <= 2e-3);
@@ -120,7 +120,7 @@ TEST_CASE("environment budget: a sun drawn as a directional light keeps to the b
         CHECK(error >= 0.05 * use.bound);
         CHECK(use.within == (use.bound <= settings.shading.environment_tolerance));
         CHECK(codes <= bound.codes);
-        CHECK(bound.within == (bound.codes <= 1.0));
+        CHECK(bound.codes <= 1.0);
     }
 }
 

@@ -105,7 +105,6 @@ TEST_CASE("cells: no random scene exceeds the promised error", "[raster][cells][
         for (const std::uint64_t lanes : report.work.light_lanes) at_pixels += lanes;
         all += report.work.lanes(kStageLights) * shot.scene.lights.size();
         shot.settings.shading.max_error_codes = 0;
-        shot.settings.shading.accuracy = Accuracy::reference;
         report_of(shot, truth);
         double most = 0;
         for (std::size_t i = 0; i < drawn.linear.size(); ++i)

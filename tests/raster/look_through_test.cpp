@@ -1,4 +1,5 @@
 // Glass that blurs what lies behind it by its roughness, and bends it by its thickness and index of refraction.
+#include "shading/reference/reference.hpp"
 #include "tests/raster/panes.hpp"
 #include "tests/support/random.hpp"
 
@@ -235,14 +236,37 @@ TEST_CASE("look through: a frame that was stopped leaves nothing behind, nor doe
     CHECK(region_of(used, prepared, {}) == truth);
 }
 
-TEST_CASE("look through: an error budget promises nothing", "[raster][blend][budget]") {
+TEST_CASE("look through: an error budget is kept behind glass and in front of it", "[raster][blend][budget]") {
     Scene scene;
-    scene.ambient = {{0.8f, 0.7f, 0.6f}, {0.2f, 0.2f, 0.2f}};
-    add_pane(scene, rough_glass(0.5f), 0, 0);
+    scene.ambient = {{0.3f, 0.2f, 0.2f}, {0.1f, 0.1f, 0.1f}};
+    Material wall;
+    wall.lobe = Lobe::mcauley(0.4f, 2.3f);
+    wall.roughness = 0.4f;
+    add_pane(scene, wall, -1, 0);
+    Material glass = rough_glass(0.5f);
+    glass.lobe = Lobe::mcauley(0.7f, 1.7f);
+    add_pane(scene, glass, 0, 0);
+    for (int i = 0; i < 20; ++i) {
+        const auto at = static_cast<float>(i) / 20.0f;
+        scene.lights.push_back(
+            {.type = LightType::point, .color_linear = {0.1f, 0.1f, 0.05f}, .position_ws = {at - 0.5f, 0.5f - at, 0.5f + at}});
+    }
     Settings settings;
-    settings.shading.max_error_codes = 2;
-    std::vector<std::uint8_t> codes(4 * 9 * 9);
-    const auto report = render(scene, camera_flat(), settings, {9, 9, codes.data()});
-    REQUIRE(report);
-    CHECK_FALSE(report->error.within);
+    settings.shadows = ShadowMode::off;
+    const Picture exact = draw(scene, settings, 48, 32);
+    for (const double budget : {0.5, 2.0, 8.0}) {
+        settings.shading.max_error_codes = budget;
+        Picture picture = exact;
+        const auto report = render(scene, camera_flat(), settings, {48, 32, picture.codes.data(), picture.linear.data()});
+        REQUIRE(report);
+        double worst = 0;
+        for (std::size_t i = 0; i < exact.linear.size(); ++i)
+            worst = std::max(worst, std::abs(shading::reference::srgb_code(double{picture.linear[i]}) -
+                                             shading::reference::srgb_code(double{exact.linear[i]})));
+        INFO("budget " << budget << ", bound " << report->error.codes << ", measured " << worst);
+        CHECK(report->error.codes <= budget);
+        CHECK(report->error.codes > 0);
+        CHECK(worst <= report->error.codes);
+        CHECK(worst > 0);
+    }
 }

@@ -30,7 +30,7 @@ bool same(const PreparedMesh& a, const PreparedMesh& b) {
     const auto equal = [](const auto& x, const auto& y) { return same(x, y); };
     return same(a.bounds, b.bounds) && std::equal(a.clusters.begin(), a.clusters.end(), b.clusters.begin(), b.clusters.end(), equal) &&
            std::equal(a.superclusters.begin(), a.superclusters.end(), b.superclusters.begin(), b.superclusters.end(), equal) &&
-           a.vertex_groups == b.vertex_groups && a.largest_uv == b.largest_uv && a.largest_color == b.largest_color && a.finite == b.finite;
+           a.vertex_groups == b.vertex_groups && a.largest_color == b.largest_color && a.finite == b.finite;
 }
 
 /// Compares all that is public, except the revision.
@@ -45,7 +45,6 @@ void check_same(const PreparedData& a, const PreparedData& b) {
     CHECK(differing_meshes == 0);
     CHECK(differing_instances == 0);
     CHECK(a.triangle_count() == b.triangle_count());
-    CHECK(a.largest_uv() == b.largest_uv());
     CHECK(a.largest_color() == b.largest_color());
     CHECK(std::ranges::equal(a.available_slots(), b.available_slots()));
     CHECK(a.drawn_materials() == b.drawn_materials());
@@ -213,12 +212,10 @@ TEST_CASE("prepared scene: counts and maxima include only what is drawn", "[rast
     scene.meshes[1].material = -1;
     scene.meshes[1].uv0.clear();
     scene.meshes[2].material = 2;
-    scene.meshes[2].uv0[0].x = -70.0f;
     scene.meshes[2].colors.assign(scene.meshes[2].positions.size(), {1, 9, 1, 1});
     scene.instances = {{0, {}}, {0, scaling({2, 2, 2})}, {1, {}}};
     PreparedData prepared = made(scene);
     CHECK(prepared.triangle_count() == 12 + 12 + 2 * 8 * 4);
-    CHECK(prepared.largest_uv() == 1.0);
     CHECK(prepared.largest_color() == 1.0);
     CHECK(prepared.drawn_materials() == std::vector{false, true, false, true});
     CHECK(prepared.object_radii()[1] == Approx(2.0).epsilon(1e-6));  // the half side of the larger box
@@ -227,7 +224,6 @@ TEST_CASE("prepared scene: counts and maxima include only what is drawn", "[rast
     CHECK((prepared.available_slots()[1] & shading::kColorSlot) == 0);
     scene.instances.push_back({2, {}});
     prepared = made(scene);
-    CHECK(prepared.largest_uv() == 70.0);
     CHECK(prepared.largest_color() == 9.0);
 }
 

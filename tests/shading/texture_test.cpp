@@ -115,7 +115,6 @@ TEST_CASE("texture: levels by alpha have the colour of what shows, the mean alph
         above = std::move(mean);
     }
     CHECK(worst < 0.5001);
-    CHECK(static_cast<double>(made.storage_error()) >= 0.5 + worst);
 }
 
 TEST_CASE("texture: levels of a normal map have what the mean of its normals lost in alpha, and level 0 has nothing",
@@ -296,8 +295,8 @@ TEST_CASE("texture: copies share their texels", "[shading][texture]") {
     CHECK(copy.data().data() == first.data().data());
     const Texture moved = std::move(first);
     CHECK(first.data().empty());  // NOLINT(bugprone-use-after-move): a texture without levels
-    CHECK(moved.range().most[0] == 9 * 257);
-    CHECK(copy.range().least[0] == 9 * 257);
+    CHECK(moved.data()[0] == 9 * 257);
+    CHECK(copy.least()[0] == 9 * 257);
 }
 
 TEST_CASE("texture: a checkerboard is averaged in linear light", "[shading][texture]") {

@@ -82,15 +82,15 @@ async function failing_frame(page) {
   const set_samples = (count) => page.value(`(() => { const input = document.querySelector('[name="samples"]'); input.value = "${count}"; input.dispatchEvent(new Event("input", { bubbles: true })); })()`);
   await page.value("(() => { const put = CanvasRenderingContext2D.prototype.putImageData; CanvasRenderingContext2D.prototype.putImageData = function () { CanvasRenderingContext2D.prototype.putImageData = put; throw new Error('no canvas'); }; })()");
   await set_samples(1);
-  await page.until("!document.getElementById('error').hidden", 10);
+  await page.until("!document.getElementById('error').hidden");
   check("failing frame: the page says so", /no canvas/.test(await text_of(page, "error")), await text_of(page, "error"));
   await set_samples(8);
-  await page.until("document.getElementById('error').hidden && halflit.current().idle", 10);
+  await page.until("document.getElementById('error').hidden && halflit.current().idle");
   check("failing frame: the next one is drawn", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360", "--samples", "8"]));
 
   await page.value("(() => { window.Made = window.Worker; window.Worker = class { constructor() { throw new Error('no worker'); } }; })()");
   await page.value("document.getElementById('toggle_heat').click()");
-  await page.until("!document.getElementById('error').hidden", 10);
+  await page.until("!document.getElementById('error').hidden");
   check("failing comparison: the page says so, and is ready", /no worker/.test(await text_of(page, "error")) && (await page.value(idle)), await text_of(page, "error"));
   await page.value("window.Worker = window.Made");
 }
@@ -110,11 +110,11 @@ async function ending_engine(page) {
   await page.until(idle);
   await page.value("window.end_next = true");
   await page.value("document.getElementById('reset').click()");
-  await page.until("!document.getElementById('error').hidden", 10);
+  await page.until("!document.getElementById('error').hidden");
   check("ending engine: the page says so", (await text_of(page, "error")) === "out of memory");
   check("ending engine: its worker is terminated", (await page.value("window.terminated")) === 1);
   await page.value("document.getElementById('reset').click()");
-  await page.until("document.getElementById('error').hidden && halflit.current().idle", 20);
+  await page.until("document.getElementById('error').hidden && halflit.current().idle");
   check("ending engine: another one draws the next picture", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360"]));
 }
 
@@ -205,10 +205,13 @@ async function engines(page) {
   const [odd] = await answers_of(page, "simd", ["odd.gltf", "odd.bin", "odd.png"], [draw("odd.gltf", "--size", "64x64", "--strict")]);
   check("a PNG that does not begin with its header is refused by --strict", /PNG/.test(odd.error || ""), odd.error || "drawn");
 
-  const [loaded, resized, sized] = await answers_of(page, "simd", [], [draw("sphere:400000", "--size", "64x64", "--samples", "1"),
-    draw("sphere:400000", "--size", "80x60", "--samples", "1"), draw("sphere:400000", "--size", "80x60", "--samples", "1", "--shadow-size", "256")]);
-  check("another size of picture or shadow map does not load the scene anew", Math.max(resized.report.apply_ms, sized.report.apply_ms) < loaded.report.apply_ms / 4,
-    `${loaded.report.apply_ms} ms, then ${resized.report.apply_ms} and ${sized.report.apply_ms}`);
+  // Each twice: a busy machine may stop one of them for longer than a load takes.
+  const sphere = (...flags) => draw("sphere:400000", "--samples", "1", ...flags);
+  const [loaded, ...kept] = await answers_of(page, "simd", [], [sphere("--size", "64x64"), sphere("--size", "80x60"), sphere("--size", "72x60"),
+    sphere("--size", "72x60", "--shadow-size", "256"), sphere("--size", "72x60", "--shadow-size", "128")]);
+  const ms = kept.map((answer) => answer.report.apply_ms);
+  check("another size of picture or shadow map does not load the scene anew", Math.max(Math.min(ms[0], ms[1]), Math.min(ms[2], ms[3])) < loaded.report.apply_ms / 4,
+    `${loaded.report.apply_ms} ms, then ${ms}`);
 }
 
 async function controls(page) {

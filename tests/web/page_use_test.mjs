@@ -91,7 +91,7 @@ async function damaged(page) {
   await page.screenshot(join(work, "damaged.png"));
   await page.choose_files("#files", [join(work, "notes.txt")]);
   await page.until("/expected/.test(document.getElementById('error').textContent)", 10);
-  check("wrong file: the formats are named", /\.off or \.3mf/.test(await text_of(page, "error")), await text_of(page, "error"));
+  check("wrong file: the formats are named", /\.3mf, \.splat, \.spz or \.sog/.test(await text_of(page, "error")), await text_of(page, "error"));
   await open_model(page, ["part.3mf"]);
   check("a sound file after it: no error is left", (await text_of(page, "error")) === "" && /hash/.test(await facts(page)), await facts(page));
 }

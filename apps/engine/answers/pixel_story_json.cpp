@@ -101,6 +101,7 @@ Json share_json(const LightShare& share, const NameOfInstance& name) {
 PixelStory in_file(PixelStory story, const Placement& placement) {
     for (std::vector<SurfaceOnRay>* hits : {&story.layers, &story.behind})
         for (SurfaceOnRay& hit : *hits) move_out(hit, placement);
+    for (SplatShare& splat : story.splats) splat.depth /= placement.scale;
     for (LightShare& share : story.shares) {
         share.distance /= placement.scale;
         if (share.hidden_by) move_out(*share.hidden_by, placement);
@@ -121,6 +122,19 @@ Json story_json(const PixelStory& story, const NameOfInstance& name) {
     pixel["background_kind"] = background_name(story.background_kind);
     pixel["contact_shadow"] = story.contact_shadow;
     pixel["surface"] = story.shows == PixelShows::surface ? surface_json(story, name) : Json();
+    Json splats = Json::array();
+    for (const SplatShare& splat : story.splats)
+        splats.push_back({{"splat", splat.splat},
+                          {"mesh", splat.mesh},
+                          {"instance", splat.instance},
+                          {"node", name ? name(splat.instance) : ""},
+                          {"depth", splat.depth},
+                          {"alpha", splat.alpha},
+                          {"weight", splat.weight},
+                          {"color", splat.color}});
+    pixel["splats"] = std::move(splats);
+    pixel["splats_left_out"] = story.splats_left_out;
+    pixel["splats_passed"] = story.splats_passed;
     pixel["layers"] = hits_json(story.layers, name);
     pixel["behind"] = hits_json(story.behind, name);
     pixel["lights"] = std::move(lights);

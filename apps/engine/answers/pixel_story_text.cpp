@@ -86,6 +86,18 @@ std::string surface_text(const PixelStory& story, const NameOfInstance& name) {
     return text + material_text(story);
 }
 
+std::string splats_text(const PixelStory& story, const NameOfInstance& name) {
+    if (story.splats.empty()) return "";
+    std::string text =
+        fmt::format("\nGaussians in front, the nearest first; {:.3g} % of the light from behind passes\n", 100.0 * story.splats_passed);
+    for (const SplatShare& splat : story.splats)
+        text +=
+            fmt::format("  {:.4g} %: number {} of mesh {}, {}, alpha {:.4g}, at {:.5g} units, colour {}\n", 100.0 * splat.weight,
+                        splat.splat, splat.mesh, instance_text(splat.instance, name), splat.alpha, splat.depth, light_numbers(splat.color));
+    if (story.splats_left_out > 0) text += fmt::format("  and {} that show less\n", story.splats_left_out);
+    return text;
+}
+
 std::string share_text(const LightShare& share, bool surface, const NameOfInstance& name) {
     std::string text = fmt::format("  light {}, {}: {}\n", share.index, kind_of(share.type).name, light_numbers(share.linear));
     if (surface) {
@@ -124,6 +136,7 @@ std::string shows_text(const PixelStory& story) {
                                     : story.background_kind == BackgroundKind::color     ? "a colour"
                                                                                          : "the environment";
     if (story.shows == PixelShows::layers) return fmt::format("no surface: layers in front of the background, {}\n", behind);
+    if (story.shows == PixelShows::splats) return "3D Gaussians that hide half of what is behind them, or more\n";
     if (story.shows != PixelShows::background) return "";
     const std::string shadow =
         story.contact_shadow > 0.0 ? fmt::format(", in a contact shadow of {:.3g} %", 100.0 * story.contact_shadow) : std::string();
@@ -140,7 +153,8 @@ std::string story_text(const PixelStory& story, const NameOfInstance& name) {
     text += "linear light after exposure: " + light_numbers(story.linear) + "\n";
     text += fmt::format("covered by surfaces: {:.4g} %\n", 100.0 * story.coverage);
     text += error_text(story);
-    text += light_text(story, name);
+    text += splats_text(story, name);
+    text += story.splats.empty() ? light_text(story, name) : std::string("\nthe light of each lamp is not told behind 3D Gaussians\n");
     if (story.shows == PixelShows::surface) text += surface_text(story, name);
     text += ray_text("layers in front, distance from the camera", story.layers, name);
     return text + ray_text("hidden surfaces here, distance from the camera", story.behind, name);

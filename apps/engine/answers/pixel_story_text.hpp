@@ -10,7 +10,7 @@
 namespace halflit::engine {
 
 constexpr std::string_view shows_name(PixelShows shows) {
-    constexpr std::string_view kNames[] = {"surface", "layers", "background"};
+    constexpr std::string_view kNames[] = {"surface", "splats", "layers", "background"};
     return kNames[static_cast<std::size_t>(shows)];
 }
 constexpr std::string_view topology_name(Topology topology) {

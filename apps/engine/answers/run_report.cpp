@@ -122,7 +122,6 @@ Json error_bound_json(const ErrorBound& error) {
     const ErrorGrowth& growth = error.tone_growth;
     Json json{{"budget_codes", error.budget},
               {"bound_codes", error.codes},
-              {"within", error.within},
               {"tone_growth", {{"absolute", growth.absolute}, {"relative", growth.relative}, {"other", growth.other}}}};
     auto largest = std::max_element(std::begin(parts), std::end(parts), [](const auto& a, const auto& b) { return a.second < b.second; });
     json["largest_part"] = largest->first;

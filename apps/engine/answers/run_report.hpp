@@ -23,7 +23,7 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// The cuts of each plane of --section: [{"plane", "part", "name", "area", "closed", "open_ends"}].
 [[nodiscard]] Json sections_json(const RenderJob& job);
 
-/// {"budget_codes", "bound_codes", "within", "parts"}: the budget of --max-error, and the proven bound with its parts.
+/// {"budget_codes", "bound_codes", "parts"}: the budget of --max-error, and the proven bound with its parts.
 [[nodiscard]] Json error_bound_json(const ErrorBound& error);
 
 /// The double with the float's shortest decimal digits, so that JSON shows 0.8 and not 0.800000011920929.

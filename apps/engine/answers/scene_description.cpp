@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <iterator>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -64,8 +65,19 @@ Json file_json(const SceneInfo& file) {
             {"extensions_required", names_json(file.extensions_required)}};
 }
 
+/// Name of the way in which all splats of the scene are drawn; null: there are none, or several ways.
+Json splat_reference_json(const Scene& scene) {
+    std::optional<SplatReference> found;
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.splats == nullptr) continue;
+        if (found && *found != mesh.splats->reference) return nullptr;
+        found = mesh.splats->reference;
+    }
+    return found ? Json(splat_reference_name(*found)) : Json();
+}
+
 Json counts_json(const Scene& scene, const Lighting& light) {
-    std::uint64_t vertices = 0, stored = 0, drawn = 0, closed = 0, lines = 0, points = 0;
+    std::uint64_t vertices = 0, stored = 0, drawn = 0, closed = 0, lines = 0, points = 0, splats = 0;
     for (const Mesh& mesh : scene.meshes) {
         closed += raster::is_closed(mesh) ? 1 : 0;
         vertices += mesh.positions.size();
@@ -75,7 +87,8 @@ Json counts_json(const Scene& scene, const Lighting& light) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         drawn += triangles_of(mesh);
         if (mesh.topology == Topology::lines) lines += mesh.indices.size() / 2;
-        if (mesh.topology == Topology::points) points += mesh.indices.size();
+        if (is_cloud(mesh)) points += mesh.indices.size();
+        if (mesh.splats != nullptr) splats += mesh.splats->opacities.size();
     }
     return {{"meshes", scene.meshes.size()},
             {"closed_meshes", closed},
@@ -88,7 +101,9 @@ Json counts_json(const Scene& scene, const Lighting& light) {
             {"triangles_stored", stored},
             {"triangles_drawn", drawn},
             {"lines_drawn", lines},
-            {"points_drawn", points}};
+            {"points_drawn", points},
+            {"splats_drawn", splats},
+            {"splat_reference", splat_reference_json(scene)}};
 }
 
 /// Coordinates and lengths are the file's; so is the colour of a light at distance 1.

@@ -63,10 +63,7 @@ bool same_file(const std::string& a, const std::string& b) {
     return !a_is_there && !b_is_there && platform::whole_path(a) == platform::whole_path(b);
 }
 
-bool is_model_name(std::string_view path) {
-    const auto rows = io::detail::formats();
-    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return io::ends_with_word(path, row.extension); });
-}
+bool is_model_name(std::string_view path) { return io::detail::is_model_name(path); }
 
 bool fits_pattern(std::string_view pattern, std::string_view text, bool fold) {
     const auto same = [fold](char a, char b) { return a == b || (fold && io::lower(a) == io::lower(b)); };

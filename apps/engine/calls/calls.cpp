@@ -163,7 +163,6 @@ Result<Answer> run_render(const RenderOptions& options) {
         Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->timed_execution());
     if (!rendered) return fail(rendered.error().code, job->source.name + ": " + rendered.error().message);
     const bool blank = is_blank(image, *rendered);
-    warn_of_budget(*job, rendered->error);
     Answer answer;
     answer.report = report_head("report");
     answer.report["scene"] = job->source.name;

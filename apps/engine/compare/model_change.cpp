@@ -33,7 +33,7 @@ ModelNumbers numbers_of(const RenderJob& job, const Measures& measures, double s
     for (const Instance& instance : scene.instances) {
         if (!raster::counts_for_views(scene, instance)) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (mesh.topology == Topology::points) out.points += mesh.indices.size();
+        if (is_cloud(mesh)) out.points += mesh.indices.size();
         if (mesh.topology == Topology::lines) out.lines += mesh.indices.size() / 2;
     }
     return out;

@@ -8,7 +8,7 @@
 namespace halflit::engine {
 
 bool is_blank(const Image& image, const RenderReport& rendered) {
-    if (rendered.fragments_shaded == 0) return true;
+    if (rendered.fragments_shaded == 0 && rendered.pixels_visible == 0) return true;
     std::array<int, 4> least{255, 255, 255, 255}, most{};
     for (std::size_t i = 0; i < image.rgba8.size(); ++i) {
         least[i % 4] = std::min(least[i % 4], int{image.rgba8[i]});
@@ -17,16 +17,6 @@ bool is_blank(const Image& image, const RenderReport& rendered) {
     for (std::size_t c = 0; c < 4; ++c)
         if (most[c] - least[c] > 2) return false;
     return true;
-}
-
-void warn_of_budget(RenderJob& job, const ErrorBound& error) {
-    if (error.budget > 0.0 && !error.within)
-        job.warnings.push_back(
-            error.codes < 255.0
-                ? fmt::format(
-                      "--max-error {:.6g}: not kept; the exact picture is drawn, whose bound is {:.2f} codes; the report has its parts",
-                      error.budget, error.codes)
-                : fmt::format("--max-error {:.6g}: not kept; the exact picture is drawn, of which no bound is known", error.budget));
 }
 
 }  // namespace halflit::engine

@@ -10,7 +10,4 @@ namespace halflit::engine {
 /// No fragment was drawn, or all pixels have the same colour, within two codes: the background's.
 [[nodiscard]] bool is_blank(const Image& image, const RenderReport& rendered);
 
-/// Adds a warning to the job if the budget of --max-error is not kept.
-void warn_of_budget(RenderJob& job, const ErrorBound& error);
-
 }  // namespace halflit::engine

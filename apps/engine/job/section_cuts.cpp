@@ -39,7 +39,7 @@ std::vector<bool> shown_parts(const RenderJob& job) {
 
 void tell_sections(RenderJob& job, const RenderOptions& options) {
     const SectionReport& report = job.sections;
-    if (report.cuts.empty()) job.warnings.push_back("--section: no plane goes through an object");
+    if (report.cuts.empty() && report.instances_cut == 0) job.warnings.push_back("--section: no plane goes through an object");
     for (std::size_t i = 0; i < report.cuts.size(); ++i) {
         if (i == kMostSectionLines) {
             job.choices.push_back(fmt::format("section: {} more in the report", report.cuts.size() - i));

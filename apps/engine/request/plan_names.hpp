@@ -1,6 +1,7 @@
 // Names for the plan's enumerators, in flags and reports.
 #pragma once
 
+#include "halflit/splats.hpp"
 #include "raster/settings_table.hpp"
 #include "shading/plan/plan.hpp"
 
@@ -12,6 +13,11 @@ namespace halflit::engine {
 constexpr std::string_view alpha_mode_name(AlphaMode mode) {
     constexpr std::string_view kNames[] = {"opaque", "mask", "blend"};
     return kNames[static_cast<std::size_t>(mode)];
+}
+
+constexpr std::string_view splat_reference_name(SplatReference reference) {
+    constexpr std::string_view kNames[] = {"inria", "inria_aa", "khr", "mip"};
+    return kNames[static_cast<std::size_t>(reference)];
 }
 
 using raster::kAccuracyNames;

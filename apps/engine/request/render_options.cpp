@@ -387,13 +387,13 @@ Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
 }
 
 Positional scene_argument(RenderOptions& o, bool required) {
-    return {
-        .name = "SCENE",
-        .help = fmt::format("A {} file; - for standard input; or a built-in scene: demo, sphere:N (N triangles), lights:N (N point lights)",
-                            io::detail::list_of_formats(&io::detail::FormatRow::extension)),
-        .read = read_text(o.scene),
-        .required = required,
-        .form = "FILE"};
+    return {.name = "SCENE",
+            .help = fmt::format(
+                "A model's file; {}, - for standard input; or a built-in scene: demo, sphere:N (N triangles), lights:N (N point lights)",
+                io::detail::list_of_formats(&io::detail::FormatRow::extension)),
+            .read = read_text(o.scene),
+            .required = required,
+            .form = "FILE"};
 }
 
 namespace {

@@ -14,12 +14,11 @@ struct CommandRow {
 };
 /// In the order of the help text.
 constexpr CommandRow kCommands[] = {
-    {"render", render_command},   {"look", look_command},   {"compare", compare_command}, {"info", info_command},
-    {"view", view_command},       {"diff", diff_command},   {"golden", golden_command},   {"sheet", sheet_command},
-    {"explain", explain_command}, {"bench", bench_command}, {"plan", plan_command},       {"merge", merge_command},
-    {"lobe", lobe_command},       {"env", env_command},     {"trade", trade_command},     {"playground", playground_command},
-    {"mcp", mcp_command},         {"help", help_command},   {"man", man_command},         {"completion", completion_command},
-    {"flags", flags_command}};
+    {"render", render_command},   {"look", look_command},   {"compare", compare_command},       {"info", info_command},
+    {"view", view_command},       {"diff", diff_command},   {"golden", golden_command},         {"sheet", sheet_command},
+    {"explain", explain_command}, {"bench", bench_command}, {"merge", merge_command},           {"lobe", lobe_command},
+    {"env", env_command},         {"trade", trade_command}, {"playground", playground_command}, {"mcp", mcp_command},
+    {"help", help_command},       {"man", man_command},     {"completion", completion_command}, {"flags", flags_command}};
 
 const CommandRow* row_of(std::string_view name) {
     const auto* const row =

@@ -15,7 +15,6 @@ namespace halflit::cli {
 [[nodiscard]] Command compare_command();
 [[nodiscard]] Command sheet_command();
 [[nodiscard]] Command look_command();
-[[nodiscard]] Command plan_command();
 [[nodiscard]] Command merge_command();
 [[nodiscard]] Command golden_command();
 [[nodiscard]] Command lobe_command();

@@ -99,7 +99,6 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     picture.place = options.place;
     picture.blank = options.blank_check && is_blank(image, *rendered);
     if (picture.blank) job->warnings.push_back(job->source.name + ": nothing is seen in its picture");
-    warn_of_budget(*job, rendered->error);
     for (const auto& warnings : {job->warnings, rendered->warnings})
         for (const std::string& warning : warnings) {
             const bool says_which = !one_of_many || warning.starts_with(job->source.name);

@@ -219,6 +219,11 @@ private:
     Result<void> measure() {
         if (!options_.film.quality || is_measured_) return {};
         is_measured_ = true;
+        if (job_->prepared->triangle_count() == 0) {
+            options_.film.quality.reset();
+            print_note("quality: full, as all settings that it chooses are of surfaces; --max-error leaves faint Gaussians out");
+            return {};
+        }
         constexpr std::int64_t kFrames = 3;
         const std::int64_t all = frames_of_all();
         const std::int64_t least = options_.film.quality->codes >= raster::kWideBudget ? 16 : 128;
@@ -276,11 +281,6 @@ private:
         if (!rendered)
             return fail(rendered.error().code, fmt::format("{}: frame {}: {}", job_->source.name, number, rendered.error().message));
         drawn.rendered = *rendered;
-        if (const std::size_t told = job_->warnings.size(); !is_budget_told_) {
-            warn_of_budget(*job_, rendered->error);
-            is_budget_told_ = job_->warnings.size() > told;
-            if (is_budget_told_) print_warning(fmt::format("frame {}: {}", number, job_->warnings.back()));
-        }
         if (const auto derived = drawn.planes->derive(*job_, camera); !derived) return tl::unexpected(derived.error());
         if (options_.film.quality) drawn.file.measured = measured_;
         return drawn;
@@ -382,7 +382,7 @@ private:
     std::array<Image, 2> pictures_;  ///< one is drawn while the other is encoded
     std::vector<AovPlanes> planes_;  ///< of each of them
     Renderer renderer_;
-    bool is_measured_ = false, is_budget_told_ = false;
+    bool is_measured_ = false;
     MeasuredShare measured_;  ///< of the film
     std::string report_;
 };

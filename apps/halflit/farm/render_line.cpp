@@ -131,8 +131,6 @@ Result<RenderKind> settle_kind(RenderLine& line) {
     return RenderKind::picture;
 }
 
-}  // namespace
-
 Result<void> settle_shard(RenderLine& line, RenderKind kind) {
     const Shard& shard = *line.shard;
     if (line.report == "-" || line.output == "-")
@@ -153,6 +151,8 @@ Result<void> settle_shard(RenderLine& line, RenderKind kind) {
     if (line.report.empty()) line.report = line.output.substr(0, line.output.rfind('.')) + ".json";
     return {};
 }
+
+}  // namespace
 
 Result<RenderKind> settle(RenderLine& line) {
     const auto kind = settle_kind(line);
@@ -195,7 +195,7 @@ Command render_table(RenderLine& o) {
           {"--files-from", "FILE|-", "Also draw the scenes that this file names, one a line; - is standard input", read_path(o.list)},
           {"--shard", "I/N|auto[/N]",
            "Draw part I of N, counted from 0: of the frames, of the scenes, or of one picture's rows; auto takes I from Slurm, Kubernetes, "
-           "AWS Batch or GNU parallel. The report's name gets the part's. See halflit plan and merge",
+           "AWS Batch or GNU parallel. The report's name gets the part's. See halflit merge",
            parsed(o.shard, parse_shard)},
           {"--skip-existing", "", "Keep pictures that exist already, so that a run can be continued", set_to(o.skip_existing)},
           {"--blank-check", "", "Name pictures that show nothing; if there are any, the exit code is 1", set_to(o.blank_check)},

@@ -25,12 +25,9 @@ enum class RenderKind : std::uint8_t {
     many      ///< many scenes, each with a picture
 };
 
-/// Puts the shard's name into the output of one picture and into the report. Refuses what only whole runs can make. Requires: a shard, and
-/// what settle() decides.
-[[nodiscard]] Result<void> settle_shard(RenderLine& line, RenderKind kind);
-
 /// Decides what the flags ask for together: puts the scenes into `words` and the output into `output`, which ends in '/' or is a pattern
-/// for many scenes. Reads the file of --files-from. With a shard, does settle_shard too.
+/// for many scenes. Reads the file of --files-from. A shard's name comes into the
+/// output of one picture and into the report; what only whole runs can make is refused.
 [[nodiscard]] Result<RenderKind> settle(RenderLine& line);
 
 }  // namespace halflit::cli

@@ -72,11 +72,11 @@ Region Shard::rows_of(const Region& whole) const {
     return {whole.x, whole.y + edge(index), whole.width, edge(index + 1) - edge(index)};
 }
 
-std::string Shard::name_of(const std::string& path, const char* number) const {
+std::string Shard::name_of(const std::string& path) const {
     const std::size_t name = path.rfind('/') + 1, dot = path.rfind('.');  // npos + 1 is 0
     const std::size_t at = dot == std::string::npos || dot <= name ? path.size() : dot;
     const std::string total = std::to_string(count), own = fmt::format("{:0{}}", index, total.size());
-    return path.substr(0, at) + "." + (number == nullptr ? own : number) + "-of-" + total + path.substr(at);
+    return path.substr(0, at) + "." + own + "-of-" + total + path.substr(at);
 }
 
 Result<Shard> parse_shard(std::string_view text) {

@@ -15,8 +15,8 @@ struct Shard {
     [[nodiscard]] std::optional<FrameRange> frames_of(const FrameRange& whole) const;
     /// Its rows of a region; shards differ by one row at most. Height 0 where the region has too few.
     [[nodiscard]] Region rows_of(const Region& whole) const;
-    /// The file's name with the shard in front of its extension: "turn.json" becomes "turn.03-of-64.json". number: in place of 03.
-    [[nodiscard]] std::string name_of(const std::string& path, const char* number = nullptr) const;
+    /// The file's name with the shard in front of its extension: "turn.json" becomes "turn.03-of-64.json".
+    [[nodiscard]] std::string name_of(const std::string& path) const;
 };
 
 /// The most shards of a run.

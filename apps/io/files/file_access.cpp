@@ -4,11 +4,13 @@
 #include "apps/io/platform/errno_text.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/handles.hpp"
+#include "apps/io/platform/process.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -123,6 +125,27 @@ Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t ma
     auto bytes = read_regular(file, max_bytes, ErrorCode::io);
     if (!bytes) return fail(bytes.error().code, fmt::format("{}: {}", printable(path), bytes.error().message));
     return bytes;
+}
+
+namespace {
+thread_local TakenBytes* taken_bytes = nullptr;
+}  // namespace
+
+TakenBytes::TakenBytes(std::span<std::byte> bytes) : bytes_(bytes), outer_(std::exchange(taken_bytes, this)) {}
+TakenBytes::~TakenBytes() { taken_bytes = outer_; }
+
+void TakenBytes::before(const void* at) {
+    constexpr std::size_t kAtOnce = std::size_t{8} << 20;
+    TakenBytes* const taken = taken_bytes;
+    if (taken == nullptr) return;
+    const auto* const place = static_cast<const std::byte*>(at);
+    const std::span<std::byte> bytes = taken->bytes_;
+    if (std::less<>()(place, bytes.data()) || !std::less<>()(place, bytes.data() + bytes.size())) return;
+    const auto end = static_cast<std::size_t>(place - bytes.data());
+    if (taken->given_back_ == 0) taken->given_back_ = end;
+    if (end < taken->given_back_ + kAtOnce) return;
+    platform::give_back(bytes.data() + taken->given_back_, end - taken->given_back_);
+    taken->given_back_ = end;
 }
 
 ModelFolder::ModelFolder(std::string base_dir, std::vector<std::string> also_allowed) : has_base_(!base_dir.empty()) {

@@ -19,6 +19,24 @@ inline constexpr std::size_t kDefaultMaxFileBytes = std::size_t{512} << 20;
 /// changed while it was read. The file is not mapped, so one that shrinks cannot raise SIGBUS.
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes = kDefaultMaxFileBytes);
 
+/// A file's bytes that this thread owns, while a reader takes them once, from the first to the last: the memory of those that it has taken
+/// is given back, so that file and model are not there at once. Readers of bytes that a caller owns give nothing back.
+class [[nodiscard]] TakenBytes {
+public:
+    explicit TakenBytes(std::span<std::byte> bytes);
+    ~TakenBytes();
+    TakenBytes(const TakenBytes&) = delete;
+    TakenBytes& operator=(const TakenBytes&) = delete;
+
+    /// Nothing between the place of the first call and `at` is read any more.
+    static void before(const void* at);
+
+private:
+    std::span<std::byte> bytes_;
+    std::size_t given_back_ = 0;  ///< up to there; 0: nothing yet
+    TakenBytes* outer_;
+};
+
 /// Opens files by the names that a model gives, below the model's folder or one that is allowed: no absolute name, no ".." and no symbolic
 /// link that leads elsewhere, and regular files alone (a FIFO or a device is refused without waiting for it). On Windows no links at all,
 /// and no name that Windows takes for a device, a stream or a drive.

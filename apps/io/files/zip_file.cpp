@@ -24,7 +24,7 @@ constexpr std::size_t kEndBytes = 22, kEntryBytes = 46, kHeaderBytes = 30, kLoca
 constexpr std::uint32_t kEndMark = 0x06054b50, kEntryMark = 0x02014b50, kHeaderMark = 0x04034b50, kLocatorMark = 0x07064b50,
                         kEnd64Mark = 0x06064b50;
 
-[[noreturn]] void fail_whole(const char* what) { refuse("", fmt::format("the ZIP file of a 3MF model cannot be read: {}", what)); }
+[[noreturn]] void fail_whole(const char* what) { refuse("", fmt::format("the ZIP file cannot be read: {}", what)); }
 [[noreturn]] void fail_entry(const ZipFile::Entry& entry, const std::string& what) {
     refuse(printable(entry.name, 120), "cannot be unpacked: " + what);
 }
@@ -96,8 +96,7 @@ ZipFile::ZipFile(std::span<const std::byte> bytes) : bytes_(bytes) {
     const Directory directory = find_directory(bytes);
     const std::span<const std::byte> list = bytes.subspan(directory.first, directory.size);
     if (directory.entries > kMostEntries)
-        refuse("", fmt::format("the ZIP file of a 3MF model has {} entries, the limit is {}", directory.entries, kMostEntries),
-               ErrorCode::limit);
+        refuse("", fmt::format("the ZIP file has {} entries, the limit is {}", directory.entries, kMostEntries), ErrorCode::limit);
     TimeCheck check;
     for (std::size_t at = 0; entries_.size() < directory.entries;) {
         check();

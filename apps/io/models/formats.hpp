@@ -43,10 +43,12 @@ struct FormatRow {
 [[nodiscard]] std::span<const FormatRow> formats();
 /// The row of a file's content; null: of none.
 [[nodiscard]] const FormatRow* find_format(std::span<const std::byte> bytes);
-/// "A, B or C" of all formats' names or extensions, in the order of ModelFormat.
+/// "A, B or C" of all formats' names or extensions, in the order of ModelFormat; behind the extensions, those of 3D Gaussians.
 [[nodiscard]] std::string list_of_formats(std::string_view FormatRow::*column);
+/// True for a name with the extension of a format that is drawn.
+[[nodiscard]] bool is_model_name(std::string_view name);
 
-/// A format that is known and not read.
+/// A format that is known and not read, or one of 3D Gaussians.
 struct ForeignFormat {
     std::string_view name;
     std::string_view extensions;  ///< of files, without points, by blanks
@@ -55,11 +57,14 @@ struct ForeignFormat {
     std::string_view holds = {};  ///< stands in the first kilobyte too
     std::size_t offset = 0;
     bool (*is_it)(std::span<const std::byte> bytes) = nullptr;  ///< what else holds of its files; null: nothing
-    /// Draws a picture that its files may hold; null: they hold none.
+    /// Draws 3D Gaussians, or a picture that its files may hold; null: they hold none.
     std::optional<LoadedScene> (*picture)(const ModelFile&, const LoadOptions&) = nullptr;
+
+    [[nodiscard]] constexpr bool is_drawn() const { return picture != nullptr && name.starts_with("3D Gaussians"); }
 };
 
-/// The format of a file that begins as one of a known format that is not read; null: none. Among several, the one of the name's extension.
+/// The format of a file that begins as one of a known format without a row above: it is not read, or drawn by `picture` alone; null:
+/// none. Among several, the one of the name's extension.
 [[nodiscard]] const ForeignFormat* find_foreign_format(const ModelFile& file);
 /// The format of the name's extension alone, for files whose content says nothing.
 [[nodiscard]] const ForeignFormat* find_foreign_name(std::string_view name);

@@ -112,8 +112,9 @@ Result<LoadedScene> load_model_bytes(std::span<const std::byte> bytes, const std
 
 Result<LoadedScene> load_model(const std::string& path, const LoadOptions& options) {
     return errors_of(path, options.limits.time_limit_s, [&]() -> Result<LoadedScene> {
-        const auto bytes = read_file(path, options.limits.max_file_bytes);
+        auto bytes = read_file(path, options.limits.max_file_bytes);
         if (!bytes) return tl::unexpected(bytes.error());
+        const io::TakenBytes taken(*bytes);
         return read_model({*bytes, folder_of(path), name_of(path)}, options);
     });
 }

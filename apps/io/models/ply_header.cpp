@@ -83,10 +83,11 @@ PlyHeader read_ply_header(std::span<const std::byte> bytes, Document& document) 
             if (properties.size() >= kMostProperties) refuse(scanner.where(), fmt::format("more than {} properties", kMostProperties));
             properties.push_back(read_property(scanner, header.format));
         } else if (same_word(word, "comment")) {
-            if (same_word(scanner.next_in_line(), "texturefile") && header.textures.size() < kMostProperties) {
-                scanner.word_in_line();
+            const std::string_view key = scanner.word_in_line();
+            if (same_word(key, "texturefile") && header.textures.size() < kMostProperties)
                 header.textures.push_back(scanner.rest_of_line(true));
-            }
+            if (same_word(key, "splatrendermode:")) header.trained_as = scanner.word_in_line();
+            if (same_word(key, "antialiased")) header.trained_as = scanner.word_in_line() == "1" ? "antialiased" : "";
         } else if (!same_word(word, "obj_info")) {
             scanner.unknown(word, "element, property or end_header");
         }

@@ -37,6 +37,7 @@ struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
     std::vector<std::string_view> textures;  ///< of comments "TextureFile NAME"
+    std::string_view trained_as;             ///< of comments on how 3D Gaussians are to be drawn; see SplatCloud::set_reference
     std::string_view body;                   ///< what follows
     std::size_t lines = 0;                   ///< of the header
 };

@@ -1,11 +1,12 @@
 // PLY: vertices and polygons, as text or binary of either byte order.
+#include "apps/io/files/file_access.hpp"
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/model_builder.hpp"
 #include "apps/io/models/model_colors.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/models/ply_values.hpp"
 #include "apps/io/models/polygon.hpp"
-#include "sh/power.hpp"
+#include "apps/io/models/splat_reader.hpp"
 #include "sh/time_limit.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -151,10 +152,8 @@ struct Layout {
             const std::uint32_t bits = is_float ? std::bit_cast<std::uint32_t>(of(packed)) : whole;
             return {static_cast<float>(bits >> 16 & 255u), static_cast<float>(bits >> 8 & 255u), static_cast<float>(bits & 255u), 1};
         }
-        constexpr double kY0 = 0.28209479177387814;  // the first spherical harmonic: 1 / (2 sqrt(pi))
-        const auto share = [&](Slot slot) { return static_cast<float>(std::clamp(0.5 + kY0 * value[slot], 0.0, 1.0)); };
-        const double alpha = 1.0 / (1.0 + exp_of(-std::clamp(value[opacity], -80.0, 80.0)));
-        return {share(harmonic_0), share(harmonic_1), share(harmonic_2), alpha >= 0 && alpha <= 1 ? static_cast<float>(alpha) : 0.0f};
+        const auto share = [&](Slot slot) { return static_cast<float>(std::clamp(0.5 + kFirstHarmonic * value[slot], 0.0, 1.0)); };
+        return {share(harmonic_0), share(harmonic_1), share(harmonic_2), static_cast<float>(opacity_of_logit(value[opacity]))};
     }
     /// Makes linear light of colours as color() gives them.
     void make_linear(std::span<Vec4f> colors, Document& document) const {
@@ -173,6 +172,9 @@ public:
     void add_files() {
         for (const std::string_view name : header_.textures) builder_.add_file(name);
     }
+
+    /// The 3D Gaussians that the file is made of; nothing: it has none, or lacks their sizes and shapes.
+    [[nodiscard]] std::optional<SplatCloud> splats() { return read_ply_splats(header_, builder_.document()); }
 
     void read() {
         add_files();
@@ -375,7 +377,7 @@ private:
         is_splat_ = is_cloud_ && layout.is_splat() && !layout.has_channels() && !layout.has[packed];
         Row row{};
         for (std::uint64_t i = 0; i < count; ++i) {
-            if (i % 65536 == 0) check_time();
+            if (i % 65536 == 0) check_time(), TakenBytes::before(values_.place());
             try {
                 read_row(element, layout, row);
             } catch (const CutOff&) {
@@ -429,7 +431,7 @@ private:
         };
         try {
             for (rows_ = 0; rows_ < count; ++rows_) {
-                if (rows_ % 65536 == 0) check_time();
+                if (rows_ % 65536 == 0) check_time(), TakenBytes::before(values_.place());
                 read_row(element, layout, row);
                 if (is_strips) add_strips();
                 if (is_face) add_face(layout, row);
@@ -529,6 +531,7 @@ private:
 LoadedScene read_ply(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     ModelBuilder builder(bytes, base_dir, options, "PLY");
     PlyReader reader(bytes, builder);
+    if (auto cloud = reader.splats()) return finish_splats(builder, *std::move(cloud));
     reader.read();
     reader.finish();
     return builder.finish({.up = reader.up()});

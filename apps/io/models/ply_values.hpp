@@ -65,6 +65,8 @@ public:
         words_.pass_long_row();
     }
 
+    /// Where the next value begins; null for texts, whose lines are counted again for a message.
+    [[nodiscard]] const char* place() const { return format_ != PlyFormat::ascii ? binary_.data() : nullptr; }
     double next(PlyType type) {
         if (format_ != PlyFormat::ascii) return next_binary(type);
         find_word();

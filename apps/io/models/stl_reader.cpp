@@ -1,4 +1,5 @@
 // STL: triangles alone, as text or binary. Two ways to put colours into the attribute of a binary triangle are read.
+#include "apps/io/files/file_access.hpp"
 #include "apps/io/files/little_endian.hpp"
 #include "apps/io/files/text.hpp"
 #include "apps/io/models/model_builder.hpp"
@@ -266,7 +267,7 @@ Soup read_binary(std::span<const std::byte> bytes, ModelBuilder& builder, bool& 
     };
     constexpr std::size_t kAhead = 8;  // triangles
     for (std::size_t t = 0; t < count; ++t) {
-        if (t % 65536 == 0) check_time();
+        if (t % 65536 == 0) check_time(), TakenBytes::before(bytes.data() + kHeader + kRecord * t);
         if (t + kAhead < count)
             for (std::size_t c = 0; c < 3; ++c) places.prefetch(corner(t + kAhead, c));
         for (std::size_t c = 0; c < 3; ++c) soup.position_of.push_back(places.add(corner(t, c), soup.positions));

@@ -27,6 +27,10 @@ namespace halflit::platform {
 /// reserved, which would count; so not for a process that sets one later.
 void prepare_heap();
 
+/// Gives the memory of whole pages within [begin, begin + bytes) back to the system: what is read there afterwards is 0. With glibc on
+/// Linux alone; elsewhere nothing happens.
+void give_back(std::byte* begin, std::size_t bytes);
+
 /// "Linux 6.1.0 x86_64, Debian GNU/Linux 12 (bookworm)"
 [[nodiscard]] std::string system_name();
 /// Empty where the system does not tell it.

@@ -17,7 +17,7 @@ function help(command) {
   const what =
     command === "info" ? "Describe a scene, and what drawing it requires" : "Draw a scene into a picture; without SCENE, the demo scene";
   const lines = [what, "", "Usage: halflit SCENE [PICTURE] [FLAGS]", "       halflit info SCENE [FLAGS]"];
-  lines.push("", "SCENE: a .glb, .gltf, .stl, .ply, .obj, .off or .3mf file, demo, sphere:N or lights:N; - for standard input.");
+  lines.push("", "SCENE: a .glb, .gltf, .stl, .ply, .obj, .off, .3mf, .splat, .spz or .sog file, demo, sphere:N or lights:N; - for standard input.");
   let group = "";
   for (const flag of table_of(command ?? "render")) {
     if (flag.group !== group) lines.push("", `${group = flag.group}:`);

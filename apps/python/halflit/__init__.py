@@ -23,6 +23,7 @@ from ._picture_options import PictureOptions
 from ._render import render, render_meshes
 from ._scene import Scene
 from ._setup import Setup
+from ._splats import Splats
 from ._turntable import Turntable
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ __all__ = [
     "PictureOptions",
     "Scene",
     "Setup",
+    "Splats",
     "TextureUse",
     "Turntable",
     "UsageError",

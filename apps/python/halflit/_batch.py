@@ -16,6 +16,7 @@ from ._mesh import is_unlit
 from ._options import KNOWN, check_names
 from ._picture import Picture
 from ._setup import choose
+from ._splats import Splats
 from ._target import names_of
 from ._threads import begins_helper
 from ._types import Array
@@ -87,7 +88,7 @@ class _MeshDrawer:
         is_first = not scene.counts["instances"]
         material, plain = (self.material if is_first else None), None
         if self.material is None:
-            plain = is_unlit(arrays.get("topology", "triangles"), arrays.get("normals"))
+            plain = is_unlit(arrays["vertices"], arrays.get("topology", "triangles"), arrays.get("normals"))
             material = None if plain == self.plain else plain_material(plain)
         if is_first:
             scene.add_mesh(**arrays, material=material, matrix=matrix)
@@ -104,10 +105,12 @@ _OF_A_MESH = ("vertices", "faces", "normals", "uv", "uv1", "colors", "colors_spa
 
 def _arguments(mesh: Any, index: int) -> Dict[str, Any]:
     """The arguments of Scene.add_mesh() that an entry of render_meshes(meshes) is."""
+    if isinstance(mesh, Splats):
+        return {"vertices": mesh}
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
         return dict(zip(_OF_A_MESH, mesh))
     if not isinstance(mesh, dict):
-        raise UsageError(f"mesh {index}: expected (vertices, faces) or a dict of arguments of add_mesh(), found {shown(mesh)}")
+        raise UsageError(f"mesh {index}: expected (vertices, faces), Splats or a dict of arguments of add_mesh(), found {shown(mesh)}")
     for name in mesh:
         if name not in _OF_A_MESH:
             raise TypeError(f"mesh {index}: has no {name!r} of its own")

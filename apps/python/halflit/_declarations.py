@@ -42,10 +42,14 @@ STRUCTS = {
         diffuse_transmission_color[3]; halflit_texture_use diffuse_transmission_texture; halflit_texture_use
         diffuse_transmission_color_texture; int32_t reserved[2];
 """,
+    "halflit_splats": """
+        size_t size; const float* rotations; const float* scales; const float* opacities; const float* harmonics; int32_t degree;
+        int32_t reference; int32_t linear_light; int32_t reserved;
+""",
     "halflit_mesh": """
         size_t size; const char* name; const float* positions; const float* normals; const float* tangents; const float* uv0;
         const float* uv1; const float* colors; const uint32_t* indices; size_t vertex_count; size_t index_count; int32_t material;
-        int32_t topology; int32_t smooth; int32_t reserved;
+        int32_t topology; int32_t smooth; int32_t reserved; const halflit_splats* splats;
 """,
     "halflit_instance": """
         size_t size; int32_t mesh; int32_t material; int32_t visible; int32_t node; float color[4]; float world_from_object[16];
@@ -147,6 +151,10 @@ CONSTANTS = {
     "HALFLIT_TOPOLOGY_TRIANGLES": 0,
     "HALFLIT_TOPOLOGY_LINES": 1,
     "HALFLIT_TOPOLOGY_POINTS": 2,
+    "HALFLIT_SPLATS_INRIA": 0,
+    "HALFLIT_SPLATS_INRIA_AA": 1,
+    "HALFLIT_SPLATS_KHR": 2,
+    "HALFLIT_SPLATS_MIP": 3,
     "HALFLIT_LIGHT_DIRECTIONAL": 0,
     "HALFLIT_LIGHT_POINT": 1,
     "HALFLIT_LIGHT_SPOT": 2,
@@ -225,6 +233,7 @@ int32_t halflit_material_init(halflit_material* material, size_t size);
 int32_t halflit_scene_add_material(halflit_scene* scene, const halflit_material* material, int32_t* index);
 int32_t halflit_scene_get_material(const halflit_scene* scene, int32_t index, halflit_material* material);
 int32_t halflit_scene_set_material(halflit_scene* scene, int32_t index, const halflit_material* material);
+int32_t halflit_splats_init(halflit_splats* splats, size_t size);
 int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
 int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit_mesh* mesh, int32_t* index);
 int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);

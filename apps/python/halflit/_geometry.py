@@ -114,7 +114,8 @@ class Geometry(SceneBase):
         The index is an int whose member `instance` is the index of the instance that places the mesh, or None. set_instance(), look()
         and aovs["id"] - 1 mean that one: arm = scene.add_mesh(v, f), then scene.set_instance(arm.instance, matrix).
 
-        vertices: (n, 3) world units; what has a corner that is not finite is left out, with a warning. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
+        vertices: (n, 3) world units; what has a corner that is not finite is left out, with a warning; or halflit.Splats, 3D Gaussians
+        without faces, normals, uv, colors and tangents. faces: (m, 3) vertex numbers, counter-clockwise seen from the front; None: 0 1 2, 3 4 5 and so on.
         normals: (n, 3), "smooth" (made from the faces around each position, anew when they move), or None: each triangle is flat.
         uv, uv1: (n, 2), v = 0 is the first row of a texture. tangents: (n, 4), direction and +1 or -1.
         colors: (n, 3) or (n, 4), uint8 sRGB codes, or linear floats, where 1 is white; above 16 they are taken for codes and refused.
@@ -188,7 +189,7 @@ class Geometry(SceneBase):
         return self._plain_material(is_unlit) if used in self._plain.values() else used
 
     def set_vertices(self, mesh: int, vertices: Any, normals: Any = None) -> None:
-        """Moves the vertices of a mesh that was added: (n, 3), n as before.
+        """Moves the vertices of a mesh that was added: (n, 3), n as before. Splats are replaced by set_mesh().
 
         normals: (n, 3), or "smooth" as in add_mesh() if the mesh was added so. None: those of a mesh that was given none are made anew,
         smooth or flat as before; others stay as they are.

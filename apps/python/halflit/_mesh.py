@@ -1,22 +1,24 @@
 """The arrays of a mesh, checked, as the library reads them. This module imports numpy."""
 from __future__ import annotations
 
+import ctypes
 from typing import Any, Dict, Optional
 
 import numpy as np
 
 from . import _arrays, _c
 from ._errors import UsageError
+from ._splats import Splats
 from ._types import Array
 
 #: Topology -> vertices of a primitive.
 CORNERS = {"triangles": 3, "lines": 2, "points": 1}
 
 
-def is_unlit(topology: Any, normals: Any) -> bool:
+def is_unlit(vertices: Any, topology: Any, normals: Any) -> bool:
     """Whether a mesh without a material is drawn without light, as those of files are: lines and points without normals have no side that
     light falls on."""
-    return topology != "triangles" and normals is None
+    return isinstance(vertices, Splats) or (topology != "triangles" and normals is None)
 
 
 class MeshArrays:
@@ -25,6 +27,13 @@ class MeshArrays:
     def __init__(self, name: Optional[str], topology: str, vertices: Any, faces: Any, normals: Any, **attributes: Any) -> None:
         if not isinstance(topology, str) or topology not in CORNERS:
             raise UsageError(f"topology: expected one of {', '.join(CORNERS)}, found {topology!r}")
+        self.is_unlit = is_unlit(vertices, topology, normals)
+        self.splats = None
+        if isinstance(vertices, Splats):
+            for argument, value in {"faces": faces, "normals": normals, **attributes}.items():
+                if value is not None:
+                    raise UsageError(f"{argument}: expected none beside Splats")
+            self.splats, topology, vertices = vertices.struct(), "points", vertices.positions
         self.topology = topology
         self.name = _c.bytes_of(name, "name")
         positions = _arrays.positions(vertices, f"mesh {name!r}" if name else "a mesh")
@@ -42,7 +51,6 @@ class MeshArrays:
         named = (("normals", "normals", normals, 3), ("uv0", "uv", attributes["uv"], 2), ("uv1", "uv1", attributes["uv1"], 2))
         for member, argument, value, columns in (*named, ("tangents", "tangents", attributes["tangents"], 4)):
             self.arrays[member] = None if value is None else _arrays.finite(value, columns, argument, self.count)
-        self.is_unlit = is_unlit(topology, normals)
         colors = attributes["colors"]
         if colors is None and attributes["colors_space"] is not None:
             raise UsageError("colors_space: has no effect without colors")
@@ -55,6 +63,7 @@ class MeshArrays:
             setattr(mesh, member, None if array is None else array.ctypes.data)
         mesh.vertex_count, mesh.index_count = self.count, 0 if self.corners is None else self.corners.size
         mesh.topology = _c.CONSTANTS["HALFLIT_TOPOLOGY_" + self.topology.upper()]
+        mesh.splats = None if self.splats is None else ctypes.addressof(self.splats)
         mesh.name, mesh.smooth = self.name, self.is_smooth
         mesh.put("material", material, "material")
         return mesh

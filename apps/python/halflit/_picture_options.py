@@ -65,8 +65,8 @@ class PictureOptions(ViewOptions, total=False):
         lobe: of materials without a lobe of their own (lambert)
 
     Settings:
-        max_error: error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full
-            texture filters and exact arithmetic alone; 0: none (0)
+        max_error: largest difference from the exact picture in 8-bit codes: the cheapest way that is proven to keep it, for light
+            once a pixel, full texture filters and exact arithmetic alone; 0: none (0)
         environment_tolerance: of bands that are left out, relative to white, in linear light; half an 8-bit code (1/510)
         shadow_memory_limit: bytes; the largest shadow maps are halved until all fit (256 MiB)
         samples: per pixel: 1, 4, 8 or 16 (4)

@@ -12,6 +12,7 @@ from ._light import Light
 from ._members import LightMembers
 from ._picture_options import PictureOptions
 from ._scene import Scene
+from ._splats import Splats
 from ._types import Size, Unpack, Up
 from ._values import listed, real, shown, truth
 
@@ -35,7 +36,7 @@ def render(
 ) -> pictures.Picture:
     """Draws a picture and returns it: a numpy array, uint8 of shape (height, width, 4), which notebooks show.
 
-    source: a model's path, "demo", a file's bytes, a file object, (vertices, faces) as arrays, a trimesh, or a Scene.
+    source: a model's path, "demo", a file's bytes, a file object, (vertices, faces) as arrays, Splats, a trimesh, or a Scene.
     size: (width, height) in pixels, or the side of a square; 1280 x 720, reduced to the shape of the file's camera, if it is left out.
 
     A file without any keyword gives the pixels that `halflit render FILE --size WxH` gives. Keywords for all but a Scene:
@@ -76,7 +77,7 @@ def render_meshes(
 ) -> Iterator[pictures.Picture]:
     """Draws many small meshes, each alone in its picture: an iterator of the pictures of render((vertices, faces), size), in order.
 
-    meshes: each (vertices, faces), or a dict of arguments of Scene.add_mesh() such as {"vertices": v, "faces": f, "colors": c}, but for
+    meshes: each (vertices, faces), Splats, or a dict of arguments of Scene.add_mesh() such as {"vertices": v, "faces": f, "colors": c}, but for
     material and place; they are read as pictures are asked for, some ahead. material: of all meshes. up: the axis that points up (y).
     threads: that draw, each one a picture; 0: one for each core. The other keywords are those of Scene.render() but for camera, setup and
     out.
@@ -118,8 +119,10 @@ def scene_of(source: Any, of_file: Dict[str, Any], up: Optional[Up]) -> Scene:
         return Scene.demo()
     if is_trimesh(source):
         return Scene.from_trimesh(source, up)
+    if isinstance(source, Splats):
+        source = (source, None)
     if isinstance(source, (tuple, list)) and len(source) == 2 and not any(isinstance(part, (str, os.PathLike)) for part in source):
         made = Scene(up)
         made.add_mesh(*source)
         return made
-    raise TypeError(f"source: expected a path, bytes, (vertices, faces), a trimesh or a Scene, found {type(source).__name__}")
+    raise TypeError(f"source: expected a path, bytes, (vertices, faces), Splats, a trimesh or a Scene, found {type(source).__name__}")

@@ -103,7 +103,7 @@ function keep_old_picture() {
 function say_facts() {
   const { report } = shown, mean = frame_ms.reduce((a, b) => a + b, 0) / (frame_ms.length || 1);
   const parts = [`${report.render_ms.toFixed(0)} ms`, `${report.isa}, one thread`, counted(report.triangles, "triangle"), counted(report.lights, "light")];
-  if (report.bands) parts.push(counted(report.bands, "band"));
+  if (report.bands) parts.push(report.bands > 10 ? "a map of 64 bands" : counted(report.bands, "band"));
   if (turning) parts.push(`${counted((1000 / mean).toFixed(0), "picture")} a second, 1 sample`);
   else parts.push(`hash ${report.pixel_hash}`);
   if (state.budget > 0 && !turning) parts.push(`error proven below ${counted(digits(report.bound, 3), "code")}`);
@@ -118,7 +118,7 @@ function say_facts() {
 
 async function show_lobes() {
   if (!$("plots").open) return;
-  const bands = state.sh_order || shown.report.bands || 3, lobe = lobe_of(state);
+  const bands = state.sh_order || Math.min(shown.report.bands, 10) || 3, lobe = lobe_of(state);
   const wanted = lobe ? [lobe] : shown.report.lobes.slice(0, 8), asked = picture_engine();
   const answers = await Promise.all(wanted.map((task) => asked.ask("lobe", { ...task, bands })));
   const curves = answers.map((answer) => answer.report).filter((report) => report && !report.error);
@@ -229,7 +229,7 @@ async function take_files(list) {
   const read = await Promise.resolve(list).then(chosen_of).catch((error) => ({ error }));
   if (!drawing) end_busy();
   if (read.error || (!read.model && !read.sky)) {
-    fail_with(read.error ? `the browser cannot read the files: ${read.error.message}` : "expected .glb, .gltf, .stl, .ply, .obj, .off or .3mf, or .hdr or .pfm as an environment");
+    fail_with(read.error ? `the browser cannot read the files: ${read.error.message}` : "expected .glb, .gltf, .stl, .ply, .obj, .off, .3mf, .splat, .spz or .sog, or .hdr or .pfm as an environment");
     return;
   }
   files = read.model ? read.files : with_files(files, read.files);

@@ -42,6 +42,17 @@ struct TextureAt {
     std::array<double, 4> full_size{};  ///< linear red, green, blue and alpha there, in [0, 1]; the picture may read smaller levels
 };
 
+/// A splat that the pixel shows.
+struct SplatShare {
+    std::size_t instance = 0;  ///< into Scene::instances
+    std::size_t mesh = 0;      ///< into Scene::meshes
+    std::size_t splat = 0;     ///< number in its mesh
+    double depth = 0;          ///< along the view axis, world units
+    double alpha = 0;          ///< at the pixel's middle
+    double weight = 0;         ///< alpha times the share of light that those in front of it let through
+    Rgb3 color{};              ///< as it is blended: sRGB codes / 255, or linear light
+};
+
 /// One of the scene's lights at the pixel.
 struct LightShare {
     std::size_t index = 0;                    ///< into Lighting::all_lights()
@@ -60,6 +71,7 @@ struct LightShare {
 /// Kind of what a pixel shows at its first sample.
 enum class PixelShows : std::uint8_t {
     surface,    ///< an opaque or masked surface
+    splats,     ///< splats that hide half of what is behind them
     layers,     ///< blended or transmitting surfaces in front of the background
     background  ///< nothing but the background
 };
@@ -101,6 +113,13 @@ struct PixelStory {
     /// @}
 
     /// @{
+    /// Splats at the pixel's middle in front of its surface. Where there are some, `shares` and the other parts of the light are not told.
+    std::vector<SplatShare> splats;   ///< the nearest first, the kMostSplats with most weight
+    std::size_t splats_left_out = 0;  ///< splats beyond those, and of less than 1/1024
+    double splats_passed = 1;         ///< share of the light from behind that all of them let through
+    /// @}
+
+    /// @{
     /// Triangles on the ray from the camera through `position`, or without a surface through the pixel's middle, the nearest first.
     /// Distances are from the camera; from the plane through it if it is orthographic. Triangles whose side there is not drawn are left
     /// out, and so are lines and points.
@@ -129,6 +148,8 @@ struct PixelStory {
 
 /// Lights that are drawn alone to tell their share. Those that may be brightest at the point come first.
 inline constexpr std::size_t kMostShares = 32;
+/// Length of the list of splats.
+inline constexpr std::size_t kMostSplats = 32;
 /// Length of each list of surfaces on the view's ray.
 inline constexpr std::size_t kMostSurfaces = 8;
 

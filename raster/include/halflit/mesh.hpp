@@ -3,9 +3,11 @@
 
 #include "halflit/export.hpp"
 #include "halflit/math.hpp"
+#include "halflit/splats.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,12 +36,18 @@ struct Mesh {
     int material = -1;  ///< index into Scene::materials; -1: the default material, white, rough and metallic as glTF has it
     /// Lit lines and points need normals as triangles do; those without should have an unlit material.
     Topology topology = Topology::triangles;
+    /// The first positions are the middles of 3D Gaussians, and nothing else is drawn; for points alone. `indices` are the positions to
+    /// which views of the scene are fitted. null: there are none.
+    std::shared_ptr<const Splats> splats{};
 };
 
 /// Number of triangles; 0 for lines and points.
 [[nodiscard]] inline std::size_t triangles_of(const Mesh& mesh) {
     return mesh.topology == Topology::triangles ? mesh.indices.size() / 3 : 0;
 }
+
+/// True for points that are drawn as such, not as splats.
+[[nodiscard]] inline bool is_cloud(const Mesh& mesh) { return mesh.topology == Topology::points && mesh.splats == nullptr; }
 
 /// A mesh placed in the world.
 struct Instance {
@@ -79,5 +87,11 @@ HALFLIT_API void generate_smooth_normals(Mesh& mesh);
 /// the order of triangles does not. w is +1 or -1 by glTF's rule: bitangent = cross(normal, tangent) * w points up in the texture (along
 /// -v). The rules are those of MikkTSpace [Mikk08]; raster/README.md gives them, and the one difference.
 HALFLIT_API void generate_tangents(Mesh& mesh, int uv_set);
+
+/// A mesh of 3D Gaussians around these positions. Those with a number that is not finite are left out; rotations do not count there:
+/// those of a length near 0, or that are not finite, become none. Views are fitted to Gaussians of an opacity above 0.1, or else to
+/// all, but for the outermost hundredth on each side of each axis; where they are few, to the ends of their axes, which are appended to the
+/// positions. Requires: a degree from 0 to 4, and arrays of the lengths that Splats says.
+[[nodiscard]] HALFLIT_API Mesh make_splat_mesh(std::vector<Vec3f> positions, Splats splats);
 
 }  // namespace halflit

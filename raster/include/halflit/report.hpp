@@ -15,9 +15,9 @@ namespace halflit {
 
 /// Series of spherical harmonics by which the materials of one lobe take the light of the scene's environment.
 struct EnvironmentUse {
-    int bands = 0;       ///< length of the series, 1..10
+    int bands = 0;       ///< length of the series, 1..10; 0: a map of 64 bands' light
     double bound = 0;    ///< largest error of the light over all normals, white surface, worst channel, before exposure
-    bool within = true;  ///< true if bound times exposure is within the tolerance, or the bound in codes within the budget
+    bool within = true;  ///< true if bound times exposure is within the tolerance
 };
 
 /// Amount of shading work, in lanes. The counts show that stages which are not required do not run. They do not depend on threads or
@@ -80,7 +80,7 @@ struct RenderReport {
     std::uint64_t triangles_submitted = 0;    ///< triangles of the scene, over all instances
     std::uint64_t triangles_drawn = 0;        ///< set up for tiles, without copies; pieces of clipped triangles count singly
     std::uint64_t triangles_not_finite = 0;   ///< dropped for a NaN or infinite vertex
-    std::uint64_t pixels_visible = 0;         ///< pixels of the region of which an opaque or masked surface covers a sample
+    std::uint64_t pixels_visible = 0;         ///< pixels of the region of which an opaque or masked surface covers a sample, or splats show
     std::uint64_t fragments_shaded = 0;       ///< pairs of a pixel and a triangle whose colour was computed
     std::uint64_t nan_pixels = 0;             ///< fragments with a NaN in their colour; it is written as 0
     WorkCounts work;                          ///< shading work, stage by stage

@@ -13,7 +13,7 @@
 namespace halflit {
 
 /// Raised by every release that may change the pixels of some scene. Releases of equal epoch give equal pixel hashes.
-inline constexpr int kPixelEpoch = 9;
+inline constexpr int kPixelEpoch = 10;
 
 /// Version of the library that is linked, as "0.1.0"; a shared library may be another than that of the headers.
 [[nodiscard]] HALFLIT_API const char* version();

@@ -23,19 +23,18 @@ struct ErrorGrowth {
     friend bool operator==(const ErrorGrowth&, const ErrorGrowth&) = default;
 };
 
-/// Bound on the error of a frame in 8-bit sRGB codes: 255 times the encoded value, before it is rounded to a whole code, of a pixel that
-/// one surface fills. `codes` is the sum of the parts below it, or 255 if that is less, for the material where that sum is
-/// largest.
+/// Bound on the difference of a frame from the exact one, the frame without a budget, in 8-bit sRGB codes: 255 times the encoded value,
+/// before it is rounded to a whole code, of a pixel that one surface fills. `codes` is the sum of the parts below it, for the material
+/// where that sum is largest; it is never above the budget, and 0 where nothing can be left out.
 struct ErrorBound {
     double budget = 0;        ///< codes asked for; 0: no budget, and nothing below is known
     double codes = 0;         ///< the bound
-    bool within = true;       ///< codes <= budget; if not, rounding and bands alone exceed it for some material, and the frame is exact
-    double rounding = 0;      ///< float32 itself, and texture filters
+    double rounding = 0;      ///< of what is computed in another way than in the exact picture
     double lobes = 0;         ///< shorter polynomials for t^n, or curves
     double specular = 0;      ///< shorter polynomials for cos^s, or curves
     double environment = 0;   ///< bands left out
     double cells = 0;         ///< light fitted over cells of 8 x 8 pixels
-    double left_out = 0;      ///< lights beyond their cutoff radius, and highlights too weak to see
+    double left_out = 0;      ///< lights beyond their cutoff radius, highlights too weak to see, and faint or hidden parts of splats
     ErrorGrowth tone_growth;  ///< factors by which the tone curve may enlarge errors; all numbers above are those after the curve
 };
 
@@ -76,8 +75,8 @@ struct ShadingSettings {
     int environment_bands = 0;    ///< of spherical harmonics, 1 to 10; 0: the fewest whose error is within environment_tolerance
     double environment_tolerance = 1.0 / 510.0;  ///< of bands that are left out, relative to white, in linear light; half an 8-bit code
     Accuracy accuracy = Accuracy::exact;         ///< arithmetic; exact if there is an error budget
-    /// error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full texture filters and
-    /// exact arithmetic alone; 0: none
+    /// largest difference from the exact picture in 8-bit codes: the cheapest way that is proven to keep it, for light once a pixel, full
+    /// texture filters and exact arithmetic alone; 0: none
     double max_error_codes = 0.0;
     TextureDetail texture_detail = TextureDetail::full;  ///< upper limit of the texture filters
     /// largest ratio of a footprint's length to its width that is filtered along its length, 1 to 16; 1: footprints count as squares;

@@ -7,6 +7,7 @@
 #include "halflit/export.hpp"
 #include "halflit/math.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -53,12 +54,6 @@ inline constexpr int kMaxTextureLevels = 16;
 /// Largest width and height, texels.
 inline constexpr int kMaxTextureSide = 16384;
 
-/// Range of a texture's channels over all levels, in units of 1 / 65535, for bounds on the error of filtering.
-struct TextureRange {
-    std::uint16_t least[4], most[4];  ///< smallest and largest value of each channel
-    std::uint16_t step[4];  ///< the largest difference between neighbours in a row or a column, those across opposite edges included
-};
-
 /// Texel (x, y) of level l is at data()[4 * (offset + y * width + x)], row 0 on top (v = 0), channel order RGBA. Copies share their texels,
 /// which do not change.
 class Texture {
@@ -80,11 +75,9 @@ public:
     [[nodiscard]] std::span<const std::uint16_t> data() const { return levels_.empty() ? std::span<const std::uint16_t>() : data_; }
     /// As the texture was made.
     [[nodiscard]] MipRule rule() const { return rule_; }
-    /// The largest error of a texel by its rounding to 16 bits and by that of the levels above it, in units of 1 / 65535. Measured when it
-    /// is first asked for, which takes about as long as making the texture. Thread-safe. Throws std::bad_alloc.
-    [[nodiscard]] HALFLIT_API float storage_error() const;
-    /// Range of each channel. Measured when it is first asked for. Thread-safe. The texture must have levels.
-    [[nodiscard]] HALFLIT_API const TextureRange& range() const;
+    /// The least value of each channel, in units of 1 / 65535. Measured when it is first asked for. Thread-safe. The texture must have
+    /// levels.
+    [[nodiscard]] HALFLIT_API const std::array<std::uint16_t, 4>& least() const;
 
 private:
     friend class TextureBuilder;

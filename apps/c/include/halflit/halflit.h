@@ -369,6 +369,26 @@ HALFLIT_C_API int32_t halflit_scene_set_material(halflit_scene* scene, int32_t i
 /// Primitives of a mesh. Lines and points are quads that face the screen; they receive shadows and cast none.
 enum { HALFLIT_TOPOLOGY_TRIANGLES = 0, HALFLIT_TOPOLOGY_LINES = 1, HALFLIT_TOPOLOGY_POINTS = 2 };
 
+/// How a Gaussian becomes pixels (docs/formats.md): as trained by Kerbl and others, the same antialiased, KHR_gaussian_splatting,
+/// Mip-Splatting.
+enum { HALFLIT_SPLATS_INRIA = 0, HALFLIT_SPLATS_INRIA_AA = 1, HALFLIT_SPLATS_KHR = 2, HALFLIT_SPLATS_MIP = 3 };
+
+/// 3D Gaussians around the positions of a mesh: each array has its vertex_count elements. They need no light and cast no shadow; those
+/// with a number that is not finite are left out. Views are fitted to those of an opacity above 0.1, without the outermost hundredth on
+/// each side. Defaults in parentheses.
+typedef struct halflit_splats {
+    size_t size;
+    const float* rotations;  ///< 4 floats each: quaternions x, y, z, w, of any length; 0 0 0 0: none
+    const float* scales;     ///< 3 floats each: standard deviations along the three axes, object units, from 0
+    const float* opacities;  ///< 0 to 1
+    const float* harmonics;  ///< (degree + 1)^2 times 3 floats each: coefficients of red, green and blue; colour = 0.5 + sum, not below 0
+    int32_t degree;          ///< of the spherical harmonics, 0 to 4 (0)
+    int32_t reference;       ///< HALFLIT_SPLATS (inria)
+    int32_t linear_light;    ///< colours are linear light; 0: sRGB codes / 255 (0)
+    int32_t reserved;
+} halflit_splats;
+HALFLIT_C_API int32_t halflit_splats_init(halflit_splats* splats, size_t size);
+
 /// Triangles, lines or points. Counter-clockwise triangles are front faces. Lines and points without normals should have an unlit material.
 /// Arrays but positions may be null; all have vertex_count elements.
 typedef struct halflit_mesh {
@@ -387,6 +407,7 @@ typedef struct halflit_mesh {
     int32_t topology;         ///< HALFLIT_TOPOLOGY (triangles)
     int32_t smooth;           ///< without normals: those of the smooth surface through the positions, by the areas of the triangles (0)
     int32_t reserved;
+    const halflit_splats* splats;  ///< Gaussians around the positions, for points without other arrays; may be null
 } halflit_mesh;
 HALFLIT_C_API int32_t halflit_mesh_init(halflit_mesh* mesh, size_t size);
 
@@ -395,8 +416,8 @@ HALFLIT_C_API int32_t halflit_scene_add_mesh(halflit_scene* scene, const halflit
 /// Replaces a mesh, in all its instances; counts and material may differ.
 HALFLIT_C_API int32_t halflit_scene_set_mesh(halflit_scene* scene, int32_t index, const halflit_mesh* mesh);
 /// Moves a mesh's vertices: 3 floats for each. vertex_count is that with which the mesh was added. normals may be null: the mesh keeps
-/// those that it was given; without any it is flat or smooth again. For meshes that the caller added; one of a file is refused (2,
-/// usage).
+/// those that it was given; without any it is flat or smooth again. For meshes that the caller added; one of a file, or of Gaussians,
+/// is refused (2, usage).
 HALFLIT_C_API int32_t halflit_scene_set_vertices(halflit_scene* scene, int32_t index, const float* positions, const float* normals,
                                                  size_t vertex_count);
 /// Removes a mesh that no instance places; halflit_scene_add_mesh may use its index again.
@@ -602,8 +623,8 @@ typedef struct halflit_region {
 typedef struct halflit_settings {
     size_t size;
     // Settings of eight bytes: written by apps/c/members.py.
-    /// error budget in 8-bit codes: the cheapest way whose proven bound is below it, for light once a pixel, full texture filters
-    /// and exact arithmetic alone; 0: none (0)
+    /// largest difference from the exact picture in 8-bit codes: the cheapest way that is proven to keep it, for light once a
+    /// pixel, full texture filters and exact arithmetic alone; 0: none (0)
     double max_error_codes;
     /// of bands that are left out, relative to white, in linear light; half an 8-bit code (1/510)
     double environment_tolerance;
@@ -845,7 +866,7 @@ typedef struct halflit_report {
     uint64_t fragments_shaded;             ///< pairs of a pixel and a triangle whose colour was computed
     uint64_t nan_pixels;                   ///< fragments with a NaN in their colour, written as 0
     char isa[16];                          ///< instruction set
-    int32_t error_within;                  ///< error_codes is at most error_budget
+    int32_t error_within;                  ///< 1: error_codes is at most error_budget, always
     int32_t threads;                       ///< threads that worked on the frame
     int32_t warnings;                      ///< see halflit_renderer_get_warning
     int32_t reserved;

@@ -4,6 +4,7 @@
 #include "apps/io/files/replace.hpp"
 #include "apps/io/gltf/build/materials.hpp"
 #include "apps/io/gltf/build/placed.hpp"
+#include "apps/io/gltf/build/scaled_mesh.hpp"
 #include "apps/io/gltf/build/world.hpp"
 #include "apps/io/gltf/file/node_transform.hpp"
 #include "sh/fp_environment.hpp"
@@ -189,7 +190,7 @@ void Motion::deform(const file::File& file, const NodeTree& tree, Scene& scene, 
                           deformed.skin >= 0 ? std::span<const Affine>(joints[deformed.skin]) : std::span<const Affine>(), deformed.place)
                     .mesh;
             if (recentre_) leave_out_strays(posed);
-            if (deformed.scale != 1.0) scale_positions(posed, deformed.scale);
+            if (deformed.scale != 1.0) io::scale_lengths(posed, deformed.scale);
         }
         if (same_arrays(mesh, posed)) continue;
         posed.name = std::move(mesh.name);

@@ -197,6 +197,10 @@ private:
 
     /// Reads the skin of a mesh. False: it is drawn as a plain mesh.
     bool has_skin(int skin, const file::Primitive& primitive, ReadMesh& read) {
+        if (read.source.mesh.splats != nullptr) {
+            document_.warn(fmt::format("{}: a skin does not move 3D Gaussians; drawn as they stand", read.where));
+            return false;
+        }
         try {
             if (read_influences(document_, accessors_, reader_, skin, primitive, read)) {
                 joints_of(skin);

@@ -1,6 +1,7 @@
 #include "apps/io/gltf/build/primitive.hpp"
 
 #include "apps/io/gltf/build/vertex_values.hpp"
+#include "apps/io/gltf/codecs/spz.hpp"
 #include "apps/io/gltf/file/indices.hpp"
 #include "sh/time_limit.hpp"
 
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <string>
 
 namespace halflit::io::detail {
 
@@ -276,6 +279,53 @@ void PrimitiveReader::read_targets(const file::Primitive& primitive, std::size_t
     }
 }
 
+void PrimitiveReader::read_splats(const file::Primitive& primitive, const std::string& list, const Accessor& position, ReadMesh& out) {
+    const std::size_t count = position.count();
+    const auto read = [&](std::string_view name, int components) {
+        const std::string whole = std::string(file::kSplatAttributes) + std::string(name);
+        return attribute(list, primitive.attributes, {whole.c_str(), components, components, kFloat, kSmall, {}, {}}, count);
+    };
+    const Accessor *const rotation = read("ROTATION", 4), *const scale = read("SCALE", 3), *const opacity = read("OPACITY", 1);
+    if (rotation == nullptr || scale == nullptr || opacity == nullptr) return;
+    std::vector<const Accessor*> harmonics;
+    int degree = -1;
+    while (degree < 4) {
+        std::vector<const Accessor*> band;
+        for (int n = 0; n < 2 * degree + 3; ++n)
+            if (const Accessor* const one = read(fmt::format("SH_DEGREE_{}_COEF_{}", degree + 1, n), 3); one != nullptr)
+                band.push_back(one);
+        if (static_cast<int>(band.size()) < 2 * degree + 3) break;
+        harmonics.insert(harmonics.end(), band.begin(), band.end());
+        ++degree;
+    }
+    SplatCloud cloud;
+    cloud.reserve(document_, count, std::max(degree, 0));
+    float p[4] = {}, q[4] = {}, s[4] = {}, o[4] = {}, c[4] = {};
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % 4096 == 0) check_time();
+        position.read_floats(i, p), rotation->read_floats(i, q), scale->read_floats(i, s), opacity->read_floats(i, o);
+        cloud.add({p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}, {s[0], s[1], s[2]}, o[0]);
+        for (const Accessor* const one : harmonics) {
+            one->read_floats(i, c);
+            cloud.splats.harmonics.insert(cloud.splats.harmonics.end(), c, c + 3);
+        }
+    }
+    if (harmonics.empty()) cloud.splats.harmonics.resize(3 * count, 0.0f);
+    take_splats(std::move(cloud), primitive, out);
+}
+
+void PrimitiveReader::take_splats(SplatCloud&& cloud, const file::Primitive& primitive, ReadMesh& out) {
+    cloud.splats.reference = SplatReference::khr;
+    cloud.splats.linear_light = primitive.linear_splats;
+    Mesh made = splat_mesh(std::move(cloud), document_);
+    if (made.splats->opacities.empty()) return;
+    made.name = std::move(out.source.mesh.name);
+    made.material = out.source.mesh.material;
+    out.source.mesh = std::move(made);
+    out.source_vertices.resize(out.source.mesh.positions.size());
+    std::iota(out.source_vertices.begin(), out.source_vertices.end(), 0u);
+}
+
 std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_t primitive_index, std::span<const double> morph_weights) {
     const file::Primitive& primitive = document_.file.meshes[mesh_index].primitives[primitive_index];
     ReadMesh out;
@@ -284,6 +334,16 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
         refuse(out.where + ".mode", fmt::format("expected 0 to 6, found {}", primitive.mode));
     const Topology topology = topology_of(static_cast<file::Mode>(primitive.mode));
     if (topology != Topology::triangles) ++document_.info.point_and_line_primitives;
+    Mesh& mesh = out.source.mesh;
+    mesh.name = document_.file.meshes[mesh_index].name;
+    mesh.material = std::max(primitive.material, -1);
+    mesh.topology = topology;
+    if (primitive.spz >= 0) {
+        auto cloud = read_spz(document_.view_data(primitive.spz), document_);
+        if (!cloud) refuse(out.where, fmt::format("bufferViews[{}]: expected an SPZ file, which may be damaged", primitive.spz));
+        take_splats(*std::move(cloud), primitive, out);
+        return mesh.splats != nullptr ? std::optional(std::move(out)) : std::nullopt;
+    }
     const std::string list = out.where + ".attributes";
     const Accessor* position = attribute(list, primitive.attributes, kPosition, std::nullopt);
     if (position == nullptr) {
@@ -298,10 +358,6 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     const Accessor* uv1 = attribute(list, primitive.attributes, kUv1, count);
     const Accessor* color = attribute(list, primitive.attributes, kColor, count);
 
-    Mesh& mesh = out.source.mesh;
-    mesh.name = document_.file.meshes[mesh_index].name;
-    mesh.material = std::max(primitive.material, -1);
-    mesh.topology = topology;
     mesh.indices = list_indices(primitive, out.where, count);
     if (mesh.indices.empty()) {
         document_.warn(fmt::format("{}: has no {}", out.where,
@@ -321,6 +377,10 @@ std::optional<ReadMesh> PrimitiveReader::read(std::size_t mesh_index, std::size_
     if (uv1 != nullptr) mesh.uv1 = read_vec2(*uv1, vertices);
     if (color != nullptr) mesh.colors = read_vec4(*color, vertices, 1.0f);
     mend_values(document_, list, mesh);
+    if (topology == Topology::points) {
+        read_splats(primitive, list, *position, out);
+        if (mesh.splats != nullptr) return out;
+    }
     read_targets(primitive, count, morph_weights, out);
     for (Vec4f& t : mesh.tangents) t.w = t.w < 0.0f ? -1.0f : 1.0f;
     return out;

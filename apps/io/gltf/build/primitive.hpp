@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/io/gltf/build/deform.hpp"
+#include "apps/io/gltf/codecs/splat_cloud.hpp"
 #include "apps/io/gltf/file/accessor.hpp"
 #include "halflit/mesh.hpp"
 
@@ -47,6 +48,9 @@ private:
     void warn_of_layout(const std::string& where, int accessor);
     std::vector<std::uint32_t> list_indices(const file::Primitive& primitive, const std::string& where, std::size_t vertex_count);
     std::vector<std::uint32_t> gather_vertices(std::vector<std::uint32_t>& indices, std::size_t vertex_count);
+    /// Makes the points splats, if they have the attributes of KHR_gaussian_splatting.
+    void read_splats(const file::Primitive& primitive, const std::string& list, const Accessor& position, ReadMesh& out);
+    void take_splats(SplatCloud&& cloud, const file::Primitive& primitive, ReadMesh& out);
     void read_targets(const file::Primitive& primitive, std::size_t vertex_count, std::span<const double> weights, ReadMesh& out);
 
     Document& document_;

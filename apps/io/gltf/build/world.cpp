@@ -1,6 +1,7 @@
 #include "apps/io/gltf/build/world.hpp"
 
 #include "apps/io/files/double_box.hpp"
+#include "apps/io/gltf/build/scaled_mesh.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/numbers.hpp"
 
@@ -89,10 +90,6 @@ Affine in_scaled_mesh(Affine m, std::span<const double> mesh_scales, int mesh) {
     return m;
 }
 
-void scale_positions(Mesh& mesh, double factor) {
-    for (Vec3f& p : mesh.positions) p = to_float(to_double(p) * factor);
-}
-
 namespace {
 
 /// Sets origin and scale of the placement, and those of the meshes. transforms: of all instances. Warns.
@@ -127,10 +124,15 @@ void choose_origin(Document& document, LoadedScene& loaded, std::span<const Affi
     if (!far && scale == 1.0 && std::all_of(in_mesh.begin(), in_mesh.end(), [](double s) { return s == 1.0; })) return;
 
     Placement& placement = loaded.placement;
-    placement.origin = far ? turned_upright(world.center(), placement.up) : Vec3d{};
+    // In float32, as the positions are that it is taken from, so that no transform is rounded.
+    const Vec3d center = world.center();
+    const auto single = [](double x) {
+        return std::abs(x) < double{std::numeric_limits<float>::max()} ? double{static_cast<float>(x)} : x;
+    };
+    placement.origin = far ? turned_upright(Vec3d{single(center.x), single(center.y), single(center.z)}, placement.up) : Vec3d{};
     placement.scale = scale;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m)
-        if (in_mesh[m] != 1.0) scale_positions(scene.meshes[m], in_mesh[m]);
+        if (in_mesh[m] != 1.0) scale_lengths(scene.meshes[m], in_mesh[m]);
     placement.mesh_scales = std::move(in_mesh);
     if (far)
         document.warn(fmt::format("the scene lies {:.3g} times its size away from the origin: it is drawn at the origin",

@@ -21,7 +21,5 @@ void place_scene(Document& document, UpAxis up, NodeTree& tree, LoadedScene& loa
 /// Makes the vertices not finite that lie more than 2^40 times farther from the origin than the mesh's median vertex, if they are few:
 /// no scale of the scene keeps both within float32. Their triangles are not drawn. Returns their number.
 std::size_t leave_out_strays(Mesh& mesh);
-/// Multiplies a mesh's positions.
-void scale_positions(Mesh& mesh, double factor);
 
 }  // namespace halflit::io::detail

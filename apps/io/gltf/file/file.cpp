@@ -18,7 +18,9 @@ bool is_drawn(std::string_view attribute) {
 
 bool is_of_skin(std::string_view attribute) { return attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_"); }
 
-bool is_of_vertices(std::string_view attribute) { return is_drawn(attribute) || is_of_skin(attribute); }
+bool is_of_vertices(std::string_view attribute) {
+    return is_drawn(attribute) || is_of_skin(attribute) || attribute.starts_with(kSplatAttributes);
+}
 
 bool is_of_instances(std::string_view attribute) { return attribute == "TRANSLATION" || attribute == "ROTATION" || attribute == "SCALE"; }
 

@@ -72,6 +72,9 @@ using Attributes = std::vector<std::pair<std::string_view, int>>;
 [[nodiscard]] bool is_of_vertices(std::string_view attribute);                ///< one of both
 [[nodiscard]] bool is_of_instances(std::string_view attribute);               ///< TRANSLATION, ROTATION or SCALE
 
+/// What the names of attributes of KHR_gaussian_splatting begin with.
+inline constexpr std::string_view kSplatAttributes = "KHR_gaussian_splatting:";
+
 /// KHR_materials_variants: the material of a primitive in some variants.
 struct VariantMaterial {
     int material = -1;
@@ -85,6 +88,9 @@ struct Primitive {
     int indices = -1, material = -1;
     int mode = static_cast<int>(Mode::triangles);
     int draco = -1;  ///< into File::draco; -1: none
+    int spz = -1;    ///< bufferView of an SPZ file, in place of the attributes; -1: none
+    /// KHR_gaussian_splatting: its colours are linear light.
+    bool linear_splats = false;
 };
 
 /// KHR_draco_mesh_compression of a primitive.

@@ -43,6 +43,7 @@ void for_each_index(file::File& file, const Visit& visit) {
             for (file::VariantMaterial& variant : primitive.variants) visit(Target::materials, variant.material);
             visit(Target::accessors, primitive.indices);
             visit(Target::materials, primitive.material);
+            visit(Target::buffer_views, primitive.spz);
         }
     for (file::Draco& draco : file.draco) visit(Target::buffer_views, draco.buffer_view);
     for (file::Node& node : file.nodes) {

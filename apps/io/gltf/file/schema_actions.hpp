@@ -255,6 +255,8 @@ void put_variant_material(F f, V value) {
     assign(f, f.file.meshes.back().primitives.back().variants.back().*Member, value);
 }
 
+inline void put_splat_colors(F f, V value) { f.file.meshes.back().primitives.back().linear_splats = value.text == "lin_rec709_display"; }
+
 inline void begin_draco(F f, V) {
     f.append(f.file.draco);
     f.file.meshes.back().primitives.back().draco = static_cast<int>(f.file.draco.size() - 1);

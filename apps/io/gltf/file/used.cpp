@@ -94,8 +94,10 @@ private:
     }
 
     void follow(const file::Primitive& primitive) {
+        view(primitive.spz);
         for (const auto& [name, value] : primitive.attributes)
-            if (file::is_drawn(name)) accessor(value, !is_in_draco(primitive, name));
+            if (primitive.spz < 0 && (file::is_drawn(name) || name.starts_with(file::kSplatAttributes)))
+                accessor(value, !is_in_draco(primitive, name));
         accessor(primitive.indices, primitive.draco < 0);
         if (primitive.draco >= 0) view(file_.draco[static_cast<std::size_t>(primitive.draco)].buffer_view);
         if (!mark(Target::materials, primitive.material)) return;

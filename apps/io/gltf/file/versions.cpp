@@ -32,7 +32,10 @@ constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",
                                                      "KHR_animation_pointer",
                                                      "KHR_node_visibility",
                                                      "KHR_materials_variants",
-                                                     "EXT_mesh_gpu_instancing"};
+                                                     "EXT_mesh_gpu_instancing",
+                                                     "KHR_gaussian_splatting",
+                                                     "KHR_gaussian_splatting_compression_spz",
+                                                     "KHR_gaussian_splatting_compression_spz_2"};
 
 /// "2.0" as {2, 0}; unless strict, "2" too.
 std::optional<std::pair<int, int>> parse_version(std::string_view text, bool strict) {

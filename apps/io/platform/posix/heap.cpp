@@ -53,7 +53,15 @@ bool set_up_heap() {
 
 void prepare_heap() { [[maybe_unused]] static const bool done = set_up_heap(); }
 
+void give_back(std::byte* begin, std::size_t bytes) {
+    const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE)), at = reinterpret_cast<std::uintptr_t>(begin);
+    const std::uintptr_t first = (at + page - 1) / page * page, end = (at + bytes) / page * page;
+    if (first < end) ::madvise(reinterpret_cast<void*>(first), end - first, MADV_DONTNEED);
+}
+
 #else
+
+void give_back(std::byte*, std::size_t) {}
 
 void prepare_heap() {}
 

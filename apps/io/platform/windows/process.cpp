@@ -87,6 +87,8 @@ int limit_memory(std::size_t bytes) {
 
 void prepare_heap() {}
 
+void give_back(std::byte*, std::size_t) {}
+
 std::string system_name() {
     constexpr const wchar_t* kKey = L"SOFTWARE\\Microsoft\\Windows NT\\CurrentVersion";
     // The version that the kernel tells; GetVersionEx tells an older one to programs that do not name a newer one.
