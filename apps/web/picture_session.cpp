@@ -11,7 +11,6 @@ namespace halflit::web {
 void PictureSession::forget_scene() { job_.reset(); }
 
 Result<void> PictureSession::apply(const std::string& scene, const std::vector<std::string>& flags) {
-    const engine::Stopwatch watch;
     engine::RenderOptions options;
     const auto groups = engine::render_flags(options, kUsualSize);
     auto read = engine::read_flags(groups, flags);
@@ -37,11 +36,11 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
         auto job = engine::make_render_job(options, kUsualSize);
         if (!job) return tl::unexpected(job.error());
         job_.emplace(std::move(*job));
+        ++loads_;
         scene_flags_ = std::move(scene_flags);
     }
     light_flags_ = std::move(light_flags);
     job_->execution.time_limit_s = options.timeout_s;  // of this picture, beside what the loading took
-    apply_ms_ += watch.ms();
     return {};
 }
 
@@ -58,14 +57,13 @@ Result<void> PictureSession::draw(const std::string& scene, const std::vector<st
     auto image = render(job_->settings, false);
     if (!image) return tl::unexpected(image.error());
     picture_ = std::move(*image);
-    picture_apply_ms_ = std::exchange(apply_ms_, 0.0);
     comparison_.clear();
     return {};
 }
 
 std::string PictureSession::report() const {
     if (!comparison_.empty()) return comparison_;
-    return job_ ? picture_report(*job_, last_, picture_, picture_apply_ms_) : "{}";
+    return job_ ? picture_report(*job_, last_, picture_, loads_) : "{}";
 }
 
 Result<void> PictureSession::compare(const std::string& scene, const std::vector<std::string>& flags) {

@@ -42,9 +42,8 @@ private:
     Renderer renderer_;
     RenderReport last_;
     Image picture_;
-    double apply_ms_ = 0;          ///< of apply() since the last picture
-    double picture_apply_ms_ = 0;  ///< up to the last picture
-    std::string comparison_;       ///< its report; empty: the last picture is none
+    int loads_ = 0;           ///< scenes that were loaded
+    std::string comparison_;  ///< its report; empty: the last picture is none
 };
 
 }  // namespace halflit::web

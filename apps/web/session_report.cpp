@@ -79,17 +79,17 @@ std::string json_text(std::string_view text) {
     return out + "\"";
 }
 
-std::string picture_report(const engine::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms) {
+std::string picture_report(const engine::RenderJob& job, const RenderReport& report, const Image& picture, int loads) {
     std::vector<std::string> warnings = job.warnings;
     warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
     int bands = 0;
     for (const EnvironmentUse& use : report.environment) bands = std::max(bands, use.bands == 0 ? 64 : use.bands);  // a map
     return fmt::format(
-        R"({{"width":{},"height":{},"pixel_hash":"{:016x}","isa":"{}","apply_ms":{:.2f},"render_ms":{:.2f},)"
+        R"({{"width":{},"height":{},"pixel_hash":"{:016x}","isa":"{}","loads":{},"render_ms":{:.2f},)"
         R"("shadows_ms":{:.2f},"tiles_ms":{:.2f},"triangles":{},"lights":{},"exposure":{},"bands":{},"bound":{},"samples":{},)"
         R"("view":{},"lobes":{},"animations":{},)"
         R"("choices":{},"warnings":{}}})",
-        picture.width, picture.height, pixel_hash(picture.rgba8), isa_name(report.isa), apply_ms, report.total_ms, report.ms.shadows,
+        picture.width, picture.height, pixel_hash(picture.rgba8), isa_name(report.isa), loads, report.total_ms, report.ms.shadows,
         report.ms.tiles, report.triangles_submitted, job.light.all_lights().size(), number(static_cast<double>(job.settings.exposure)),
         bands, number(report.error.codes), job.settings.samples, view_of(job), own_lobes(job.scene()),
         list_of(job.source.animations,

@@ -9,8 +9,8 @@
 
 namespace halflit::web {
 
-/// apply_ms: loading, preparing and lighting, as far as that was necessary.
-[[nodiscard]] std::string picture_report(const engine::RenderJob& job, const RenderReport& report, const Image& picture, double apply_ms);
+/// loads: scenes that the session has loaded so far.
+[[nodiscard]] std::string picture_report(const engine::RenderJob& job, const RenderReport& report, const Image& picture, int loads);
 [[nodiscard]] std::string error_report(const engine::TradeError& error, double reference_ms);
 
 /// A lobe's values at `samples` cosines from -1 to 1, its series of `bands` bands there, the bands, and the error of the series.

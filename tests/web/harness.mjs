@@ -9,13 +9,14 @@ import { Page, find_chromium } from "./chromium.mjs";
 
 const [program, page_file, source, work] = process.argv.slice(2).map((path) => resolve(path));
 const kSkipped = 77;
-let failures = 0;
+const failures = [];
 export { program, source, work };
 export const address = pathToFileURL(page_file).href;
 
 export function check(fact, holds, found = "") {
-  if (!holds) ++failures;
-  console.log(`${holds ? "ok" : "FAILED"}: ${fact}${found === "" ? "" : `: ${found}`}`);
+  const line = `${holds ? "ok" : "FAILED"}: ${fact}${found === "" ? "" : `: ${found}`}`;
+  if (!holds) failures.push(line);
+  console.log(line);
 }
 
 function skip_without(what, there) {
@@ -40,9 +41,10 @@ export function begin() {
   return size;
 }
 
+// Failures again, as a log that is cut short has its end.
 export function end() {
-  console.log(failures === 0 ? "all as expected" : `${failures} failed`);
-  process.exit(failures === 0 ? 0 : 1);
+  console.log(failures.length === 0 ? "all as expected" : `${failures.length} failed\n${failures.join("\n")}`);
+  process.exit(failures.length === 0 ? 0 : 1);
 }
 
 // The hash of the picture that the program draws by a command line without output.
