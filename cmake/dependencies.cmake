@@ -10,7 +10,7 @@
 #   pkg-config MODULES...      the version is that of the first module
 #   header FILE EXPRESSION...  the version's parts are what each regular expression matches in the file
 # OLDEST and TESTED: versions that are known to work, and were tested last. A newer one is used with a warning. `any`: it tells none.
-# USE is raster, io, program, viewer, tests or bench; of several uses, the first.
+# USE is raster, io, program, viewer, cad, tests or bench; of several uses, the first.
 #    NAME          USE     OLDEST TESTED  DEBIAN'S PACKAGE     TARGET                HOW
 set(halflit_rows
     "xsimd         raster  8.1    14.3    libxsimd-dev halflit::xsimd header xsimd/config/xsimd_config.hpp MAJOR.([0-9]+) MINOR.([0-9]+)"
@@ -32,6 +32,7 @@ set(halflit_rows
     "libwebpmux    program 1.2.4  1.6.0   libwebp-dev          PkgConfig::libwebpmux pkg-config libwebpmux libwebp"
     "SDL2          viewer  2.0.18 2.32.74 libsdl2-dev          PkgConfig::SDL2       pkg-config sdl2"
     "imgui         viewer  1.86   1.92.2  libimgui-dev         PkgConfig::imgui      pkg-config imgui"
+    "OpenCASCADE   cad     7.6    7.6.3   libocct-data-exchange-dev halflit::occt header Standard_Version.hxx ne.OCC_VERSION_MAJOR[^0-9]*([0-9]+) ne.OCC_VERSION_MINOR[^0-9]*([0-9]+) ne.OCC_VERSION_MAINTENANCE[^0-9]*([0-9]+)"
     "Catch2        tests   2.13   3.7.1   catch2               Catch2::Catch2        find_package Catch2"
     "tinygltf      tests   any    any     libtinygltf-dev      halflit::tinygltf     header tiny_gltf.h"
     "libwebpdemux  tests   1.2.4  1.6.0   libwebp-dev          PkgConfig::libwebpdemux pkg-config libwebpdemux"
@@ -70,7 +71,7 @@ macro(halflit_find_by_pkg-config module)
 endmacro()
 
 macro(halflit_find_by_header file)
-    find_path(HALFLIT_${name}_FOLDER ${file} HINTS ${CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES})
+    find_path(HALFLIT_${name}_FOLDER ${file} HINTS ${CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES} PATH_SUFFIXES opencascade)
     mark_as_advanced(HALFLIT_${name}_FOLDER)
     if(HALFLIT_${name}_FOLDER)
         file(READ ${HALFLIT_${name}_FOLDER}/${file} text LIMIT 4096)

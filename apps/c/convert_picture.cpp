@@ -15,7 +15,7 @@ constexpr bool ends_with(std::size_t offset, Last T::*) {
     return offset + sizeof(Last) == sizeof(T);
 }
 #define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
-HALFLIT_ENDS_WITH(halflit_load_options, max_work);
+HALFLIT_ENDS_WITH(halflit_load_options, importers_count);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, reserved);
 HALFLIT_ENDS_WITH(halflit_node, light);

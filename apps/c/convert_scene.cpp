@@ -67,6 +67,7 @@ void for_each_option(Given& given, Options& options, const Copy& copy) {
     copy(given.crease_deg, options.crease_deg);
     copy(given.recentre, options.recentre);
     copy(given.plate, options.plate);
+    copy(given.detail_px, options.detail_px);
 }
 
 halflit_load_options to_c(const LoadOptions& from) {
@@ -88,6 +89,13 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
         if (read->allow_external[i] == nullptr) return fail(ErrorCode::usage, "halflit_load_options: a folder of allow_external is null");
         options.allow_external.emplace_back(read->allow_external[i]);
     }
+    if (read->importers == nullptr && read->importers_count > 0)
+        return fail(ErrorCode::usage, "halflit_load_options: importers is null, but importers_count is not 0");
+    for (std::size_t i = 0; i < read->importers_count; ++i) {
+        const auto importer = Importer::from(read->importers[i] == nullptr ? "" : read->importers[i]);
+        if (!importer) return fail(ErrorCode::usage, "halflit_load_options: importers: " + importer.error().message);
+        options.importers.push_back(*importer);
+    }
     if (read->animation != nullptr) options.animation = read->animation;
     if (read->scene != nullptr) options.scene = read->scene;
     if (read->variant != nullptr) options.variant = read->variant;
@@ -97,6 +105,7 @@ Result<LoadOptions> load_options(const halflit_load_options* given) {
     Members members("halflit_load_options");
     if (!(read->time_limit_s >= 0.0)) members.wrong("time_limit_s", "is not 0 or more");
     if (!(read->crease_deg >= 0.0f && read->crease_deg <= 180.0f)) members.wrong("crease_deg", "is not from 0 to 180");
+    if (!(read->detail_px >= 1.0 && read->detail_px <= 1e6)) members.wrong("detail_px", "is not from 1 to 1e6");
     if (read->plate < 0) members.wrong("plate", "is " + std::to_string(read->plate) + ", expected 0 or more");
     if (read->threads < 0 || read->threads > kMostThreads)
         members.wrong("threads", "is " + std::to_string(read->threads) + ", expected 0 to " + std::to_string(kMostThreads));

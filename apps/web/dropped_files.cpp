@@ -2,6 +2,7 @@
 
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/files/text.hpp"
+#include "apps/io/models/importer.hpp"
 
 #include <fmt/format.h>
 
@@ -56,6 +57,12 @@ std::vector<std::byte>& add_file(const std::string& name, std::vector<std::byte>
 }  // namespace web
 
 namespace io {
+
+// Programs cannot be run here.
+std::optional<LoadedScene> detail::read_cad(const detail::ModelFile& /*file*/, const LoadOptions& /*options*/) { return std::nullopt; }
+std::optional<LoadedScene> detail::read_by_importer(const detail::ModelFile& /*file*/, const LoadOptions& /*options*/) {
+    return std::nullopt;
+}
 
 Result<std::vector<std::byte>> read_file(const std::string& path, std::size_t max_bytes) {
     auto file = find_file(plain_name(path), max_bytes, ErrorCode::io);

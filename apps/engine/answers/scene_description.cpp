@@ -60,6 +60,7 @@ Json file_json(const SceneInfo& file) {
             {"animations", file.animations},
             {"skins", file.skins},
             {"morph_targets", file.morph_targets},
+            {"detail_px", file.detail_px},
             {"point_and_line_primitives", file.point_and_line_primitives},
             {"extensions_used", names_json(file.extensions_used)},
             {"extensions_required", names_json(file.extensions_required)}};

@@ -433,6 +433,34 @@ Result<void> check_conflicts(const RenderOptions& options, PictureSize usual) {
     return {};
 }
 
+/// The next power of two, so that views of about one size share what an importer made.
+double rounded_detail(double pixels) {
+    constexpr double kLeast = 512.0, kMost = 32768.0;
+    return std::exp2(std::ceil(std::log2(std::clamp(pixels, kLeast, kMost))));
+}
+
+/// Pixels along the diagonal of a model that is framed, at its nearest point: 1.5 is that of a ball in the usual field of view.
+double framed_detail(const RenderOptions& options, PictureSize usual) {
+    constexpr double kNearer = 1.5;
+    const PictureSize size = options.size.value_or(usual);
+    return rounded_detail(kNearer * std::max(size.width, size.height) * std::max(1.0, static_cast<double>(options.view.zoom)));
+}
+
+/// The same for the view that was chosen. A camera inside of the model's box is a hundredth of the diagonal away.
+double seen_detail(const RenderJob& job) {
+    const Bounds& bounds = job.prepared->bounds();
+    const Camera& camera = job.camera;
+    const Vec3d low = to_double(bounds.min), high = to_double(bounds.max), eye = axis(camera.world_from_camera, 3);
+    const double diagonal = length(high - low);
+    const Vec3d beyond{std::max({low.x - eye.x, eye.x - high.x, 0.0}), std::max({low.y - eye.y, eye.y - high.y, 0.0}),
+                       std::max({low.z - eye.z, eye.z - high.z, 0.0})};
+    const double height = camera.sides          ? static_cast<double>(camera.sides->top - camera.sides->bottom)
+                          : camera.orthographic ? 2.0 * static_cast<double>(camera.half_height)
+                                                : 2.0 * std::tan(0.5 * static_cast<double>(camera.fov_y_rad));
+    const double away = camera.orthographic ? 1.0 : std::max(length(beyond), 0.01 * diagonal);
+    return rounded_detail(diagonal * job.height / (height * away));
+}
+
 Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     RenderOptions options = flags;
     if (const auto settled = settle_cameras(options); !settled) return tl::unexpected(settled.error());
@@ -453,6 +481,7 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     RenderOptions timed = options;
     timed.load = options.timed_load();
     timed.load.keep_animations = options.film.animates();
+    if (!flags.detail_given) timed.load.detail_px = framed_detail(options, usual);
     auto source = load_scene(timed);
     if (!source) return tl::unexpected(source.error());
     job.load_ms = loading.ms();
@@ -494,6 +523,12 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     auto request = request_of(job, placed, usual);
     if (!request) return tl::unexpected(request.error());
     if (const auto chosen = choose(job, placed, std::move(*request)); !chosen) return tl::unexpected(chosen.error());
+    if (job.source.file && job.source.file->detail_px > 0 && !flags.detail_given) {
+        RenderOptions finer = flags;
+        finer.load.detail_px = seen_detail(job);
+        finer.detail_given = true;
+        if (finer.load.detail_px > timed.load.detail_px) return make_job(finer, usual);
+    }
     if (job.film.framed && !options.kept_view) warn_of_left_out(job);
     tell_choices(job, options);
     return job;

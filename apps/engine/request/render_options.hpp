@@ -90,6 +90,7 @@ struct RenderOptions {
     float exposure_compensation_ev = 0.0f;
 
     LoadOptions load;
+    bool detail_given = false;      ///< load.detail_px counts; otherwise it follows from the view
     SceneKeeper* keeper = nullptr;  ///< loads the scene; null: load_scene() alone
     FilmOptions film;               ///< of render alone
     double timeout_s = 0.0;         ///< for loading and drawing; 0: none

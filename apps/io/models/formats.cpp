@@ -118,6 +118,7 @@ bool begins_with_usd(std::span<const std::byte> bytes) {
 }
 
 constexpr std::string_view kByBlender = "convert it by Blender to GLB",
+                           kByImporter = "the program halflit-import-cad reads it, and is not here",
                            kByCad = "export it from a CAD program (FreeCAD, CadQuery) as STL or 3MF",
                            kByItsCad = "export it from its program as STL, 3MF or GLB",
                            kByCloud = "convert it by CloudCompare or PDAL to PLY",
@@ -133,8 +134,8 @@ constexpr ForeignFormat kForeign[] = {
     {"USD", "usd usdc", "PXR-USDC", kByBlender},
     {"USD (text)", "usda", "#usda", kByBlender},
     {"IFC", "ifc", "ISO-10303-21", "convert it by IfcConvert (IfcOpenShell) to GLB", "IFC"},
-    {"STEP", "step stp p21", "ISO-10303-21", kByCad},
-    {"IGES", "iges igs", "S      1", kByCad, "", 72},
+    {"STEP", "step stp p21", "ISO-10303-21", kByImporter, "", 0, nullptr, read_cad},
+    {"IGES", "iges igs", "S      1", kByImporter, "", 72, nullptr, read_cad},
     {"DXF", "dxf", "AutoCAD Binary DXF", kByCad},
     {"DXF", "dxf", "", kByCad, "SECTION", 0,
      [](std::span<const std::byte> bytes) {
@@ -143,8 +144,8 @@ constexpr ForeignFormat kForeign[] = {
      }},
     {"DWG", "dwg", "AC10", kByCad},
     {"JT", "jt", "Version ", kByCad, "DM "},
-    {"OpenCASCADE BREP", "brep brp", "DBRep_DrawableShape", kByCad},
-    {"OpenCASCADE BREP", "brep brp", "CASCADE Topology", kByCad},
+    {"BREP", "brep brp", "DBRep_DrawableShape", kByImporter, "", 0, nullptr, read_cad},
+    {"BREP", "brep brp", "CASCADE Topology", kByImporter, "", 0, nullptr, read_cad},
     {"Parasolid", "x_t x_b", "**ABCDEF", kByItsCad},
     {"ACIS", "sat sab", "", kByItsCad},
     {"OpenSCAD", "scad csg", "", "export it by OpenSCAD (openscad -o part.stl part.scad)"},
@@ -260,9 +261,8 @@ FileBegin::FileBegin(std::span<const std::byte> whole) : bytes(whole), is_text(b
 bool is_model_name(std::string_view name) {
     return std::any_of(std::begin(kFormats), std::end(kFormats),
                        [&](const FormatRow& row) { return ends_with_word(name, row.extension); }) ||
-           std::any_of(std::begin(kForeign), std::end(kForeign), [&](const ForeignFormat& row) {
-               return row.is_drawn() && ends_with_word(name, fmt::format(".{}", row.extensions));
-           });
+           std::any_of(std::begin(kForeign), std::end(kForeign),
+                       [&](const ForeignFormat& row) { return row.is_drawn() && has_extension(name, row); });
 }
 
 std::string list_of_formats(std::string_view FormatRow::*column) {
@@ -270,7 +270,7 @@ std::string list_of_formats(std::string_view FormatRow::*column) {
     for (const FormatRow& row : kFormats) words[static_cast<std::size_t>(row.format)] = row.*column;
     const bool is_name = column == &FormatRow::name;
     for (const ForeignFormat& row : kForeign) {
-        std::string word = fmt::format("{}{}", is_name ? "" : ".", row.extensions);
+        std::string word = fmt::format("{}{}", is_name ? "" : ".", row.extensions.substr(0, row.extensions.find(' ')));
         if (is_name)
             for (char& letter : word) letter = static_cast<char>(letter >= 'a' && letter <= 'z' ? letter - 'a' + 'A' : letter);
         if (row.is_drawn() && word != words.back()) words.push_back(word);

@@ -1,6 +1,7 @@
 // The formats of models: one row for each. Reading, the files that a model refers to, names in messages and names of files go through it.
 #pragma once
 
+#include "apps/io/models/importer.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "halflit/model.hpp"
 
@@ -43,12 +44,12 @@ struct FormatRow {
 [[nodiscard]] std::span<const FormatRow> formats();
 /// The row of a file's content; null: of none.
 [[nodiscard]] const FormatRow* find_format(std::span<const std::byte> bytes);
-/// "A, B or C" of all formats' names or extensions, in the order of ModelFormat; behind the extensions, those of 3D Gaussians.
+/// "A, B or C" of all formats' names or extensions, in the order of ModelFormat; behind them those of ForeignFormat::is_drawn().
 [[nodiscard]] std::string list_of_formats(std::string_view FormatRow::*column);
 /// True for a name with the extension of a format that is drawn.
 [[nodiscard]] bool is_model_name(std::string_view name);
 
-/// A format that is known and not read, or one of 3D Gaussians.
+/// A format that is known and not read, one of 3D Gaussians, or one that an importer reads.
 struct ForeignFormat {
     std::string_view name;
     std::string_view extensions;  ///< of files, without points, by blanks
@@ -60,7 +61,8 @@ struct ForeignFormat {
     /// Draws 3D Gaussians, or a picture that its files may hold; null: they hold none.
     std::optional<LoadedScene> (*picture)(const ModelFile&, const LoadOptions&) = nullptr;
 
-    [[nodiscard]] constexpr bool is_drawn() const { return picture != nullptr && name.starts_with("3D Gaussians"); }
+    /// Files with its extensions are models.
+    [[nodiscard]] bool is_drawn() const { return picture != nullptr && (picture == read_cad || name.starts_with("3D Gaussians")); }
 };
 
 /// The format of a file that begins as one of a known format without a row above: it is not read, or drawn by `picture` alone; null:

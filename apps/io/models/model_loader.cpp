@@ -6,6 +6,7 @@
 #include "apps/io/files/text.hpp"
 #include "apps/io/gltf/loader.hpp"
 #include "apps/io/models/formats.hpp"
+#include "apps/io/models/importer.hpp"
 #include "apps/io/models/model_readers.hpp"
 #include "apps/io/platform/files.hpp"
 #include "sh/time_limit.hpp"
@@ -90,12 +91,16 @@ LoadedScene read_model(const ModelFile& file, const LoadOptions& options) {
         loaded.warnings.emplace_back("the text has two bytes a character (UTF-16), read as such");
         return loaded;
     }
-    const FormatRow* const row = find_format(bytes);
     if (bytes.empty()) refuse("", "the file is empty");
+    if (auto imported = read_by_importer(file, options)) return *std::move(imported);
+    const FormatRow* const row = find_format(bytes);
     const ForeignFormat* foreign = find_foreign_format(file);
     if (foreign == nullptr && row == nullptr) foreign = find_foreign_name(file.name);
     if (foreign != nullptr && foreign->picture != nullptr)
-        if (auto loaded = foreign->picture(file, options)) return *std::move(loaded);
+        if (auto loaded = foreign->picture(file, options)) {
+            if (foreign->picture == read_cad) loaded->info.format = foreign->name;
+            return *std::move(loaded);
+        }
     if (foreign != nullptr) refuse("", fmt::format("is {}, which is not read; {}", foreign->name, foreign->advice));
     if (row == nullptr) refuse("", "is no model: expected " + list_of_formats(&FormatRow::name));
     return row->read(file, options);

@@ -6,7 +6,8 @@ STRUCTS = {
         int32_t up; int32_t recentre; float crease_deg; int32_t strict; int32_t threads; const char* const* allow_external; size_t
         allow_external_count; double time_limit_s; uint64_t max_file_bytes; uint64_t max_total_bytes; uint64_t max_json_tokens;
         uint64_t max_texture_bytes; uint64_t max_texture_pixels; uint64_t max_geometry_bytes; uint64_t max_lights; int32_t
-        max_json_depth; int32_t max_texture_side; int32_t max_jpeg_scans; int32_t plate; uint64_t max_work;
+        max_json_depth; int32_t max_texture_side; int32_t max_jpeg_scans; int32_t plate; uint64_t max_work; double detail_px;
+        const char* const* importers; size_t importers_count;
 """,
     "halflit_counts": """
         size_t size; uint64_t triangles; int32_t meshes, instances, materials, textures, cameras; int32_t lights; int32_t nodes;

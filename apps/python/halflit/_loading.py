@@ -13,7 +13,7 @@ from ._values import finite, truth, up_axis
 Source = Union[str, "os.PathLike[Any]", bytes, bytearray, memoryview, BinaryIO]
 #: Members of halflit_load_options that are truths, and those that callers do not set by their names.
 _TRUTHS = ("strict", "recentre", "keep_animations")
-_HIDDEN = ("size", "reserved", "allow_external_count", "time_s")
+_HIDDEN = ("size", "reserved", "allow_external_count", "importers_count", "time_s")
 
 if TYPE_CHECKING:
     made_or_added = classmethod
@@ -77,12 +77,12 @@ def load_options(options: Dict[str, Any]) -> Any:
             how.time_s = finite(value, name)
         elif name not in how._kinds or name in _HIDDEN:
             raise TypeError(f"loading has no keyword {name!r}")
-        elif name == "allow_external":
-            folders = [value] if isinstance(value, (str, bytes, os.PathLike)) else value  # a text is not a list of letters
-            names = [_c.bytes_of(folder, name) for folder in folders]
-            how.allow_external = ctypes.cast((ctypes.c_char_p * len(names))(*names), ctypes.c_void_p)
-            how.allow_external_count = len(names)
-            how._names = names, how.allow_external  # which the struct points to
+        elif name in ("allow_external", "importers"):
+            texts = [value] if isinstance(value, (str, bytes, os.PathLike)) else value  # a text is not a list of letters
+            names = [_c.bytes_of(text, name) for text in texts]
+            setattr(how, name, ctypes.cast((ctypes.c_char_p * len(names))(*names), ctypes.c_void_p))
+            setattr(how, name + "_count", len(names))
+            setattr(how, "_names_of_" + name, (names, getattr(how, name)))  # which the struct points to
         elif name in ("animation", "scene", "variant"):
             setattr(how, name, None if value is None else _c.bytes_of(str(value), name))
         elif name == "up":

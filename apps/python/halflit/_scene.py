@@ -70,7 +70,8 @@ class Scene(Geometry, Lighting):
         shape. All that is given and asked for stays in the file's own coordinates.
         up: axis of the model that points up, "x", "y", "z", "-x", "-y" or "-z". The usual one is z for STL and 3MF and y for other files.
         Other keywords are members of halflit_load_options, such as strict=True, crease_deg=60, time_limit_s=10, max_texture_side=4096 or
-        allow_external="/models/shared", a folder or a list of folders in which the model's files may lie too.
+        allow_external="/models/shared", a folder or a list of folders in which the model's files may lie too. detail_px: how fine STEP
+        files become triangles. importers=".ext=PROGRAM": a program, or a list of some, that turns such files into glTF.
         """
         keywords: Dict[str, Any] = dict(animation=animation, time=time, scene=scene, variant=variant, recentre=recentre, up=up)
         keywords["keep_animations"] = keep_animations

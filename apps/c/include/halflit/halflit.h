@@ -107,6 +107,10 @@ typedef struct halflit_load_options {
     int32_t plate;                      ///< plate of a slicer's project (3MF); 0: all (1)
     /// Most work of loading, and of each frame besides its pixels, in estimated nanoseconds of one core. 0: chosen by the file's size (0)
     uint64_t max_work;
+    /// STEP, IGES, BREP: pixels along the diagonal of the model's box; triangles are at most a quarter of one from the surfaces (2048)
+    double detail_px;
+    const char* const* importers;  ///< ".ext=PROGRAM" for each program that turns files with this extension into glTF
+    size_t importers_count;        ///< number of these
 } halflit_load_options;
 HALFLIT_C_API int32_t halflit_load_options_init(halflit_load_options* options, size_t size);
 

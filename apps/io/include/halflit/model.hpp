@@ -66,6 +66,15 @@ struct LoadLimits {
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
 };
 
+/// A program that turns files of another format into glTF: docs/importers.md.
+struct Importer {
+    std::string extension;  ///< of the files, with its point
+    std::string program;    ///< its path; it is run with as few rights as the system can take from it
+    /// From ".ext=PROGRAM", with the program's path made absolute. Errors: usage, for another form, and a path that is no program.
+    [[nodiscard]] HALFLIT_API static Result<Importer> from(const std::string& text);
+    friend bool operator==(const Importer&, const Importer&) = default;
+};
+
 /// How a file is read. By default what is damaged is drawn as far as it goes, with warnings; limits always hold.
 struct LoadOptions {
     bool strict = false;  ///< refuse a file of which something cannot be drawn: textures, animations, faces with bad indices
@@ -105,6 +114,12 @@ struct LoadOptions {
     float crease_deg = 30.0f;
     /// Plate of a slicer's project (3MF), from 1; 0: all of them. A file without plates is drawn whole.
     int plate = 1;
+    /// STEP, IGES, BREP and what importers read: the picture's pixels along the diagonal of the model's box, in [1, 1e6]. Triangles are at
+    /// most a quarter of such a pixel from the surfaces.
+    double detail_px = 2048.0;
+    /// Asked before the formats that are known, by the file's name; the first one with its extension counts. Then those of the user's file
+    /// halflit/importers in XDG_CONFIG_HOME or ~/.config: a line ".ext=PROGRAM" for each.
+    std::vector<Importer> importers{};
 };
 
 /// An animation of a file.
@@ -129,6 +144,7 @@ struct SceneInfo {
     std::size_t scenes = 0, morph_targets = 0;
     /// @}
     double unit_m = 0.0;                        ///< length of the file's unit in metres; 0: the format has none
+    double detail_px = 0.0;                     ///< LoadOptions::detail_px of an importer's triangles; 0: they are the file's own
     std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are points or lines
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances

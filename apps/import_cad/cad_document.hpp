@@ -1,0 +1,59 @@
+// CAD files by OpenCASCADE: shapes with names, colours and places, and their triangles.
+#pragma once
+
+#include <TDocStd_Document.hxx>
+#include <TopLoc_Location.hxx>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halflit::cad {
+
+/// A file that cannot be read, with the reason in one line.
+struct Refused : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+enum class Format : std::uint8_t { step, iges, brep };
+
+/// By the file's first bytes; nothing: none of these.
+[[nodiscard]] std::optional<Format> find_format(std::string_view bytes);
+[[nodiscard]] const char* format_name(Format format);
+
+/// Triangles of one colour, of one face behind the other.
+struct Patch {
+    std::optional<std::array<float, 4>> color;  ///< linear; none: the file has none
+    std::vector<float> positions, normals;      ///< three each, in millimetres; normals are those of the surfaces
+    std::vector<float> faces;                   ///< for each vertex the number of its face in the shape, from 0
+    std::vector<std::uint32_t> indices;         ///< three for each triangle
+};
+
+struct Shape {
+    std::string name;  ///< may be empty
+    std::vector<Patch> patches;
+};
+
+struct Node {
+    std::string name;  ///< may be empty
+    int parent = -1;   ///< comes before its children; -1: none
+    int shape = -1;    ///< index into Document::shapes; -1: an assembly
+    TopLoc_Location parent_from_node;
+};
+
+struct Document {
+    Format format;
+    std::vector<Node> nodes;
+    std::vector<Shape> shapes;  ///< each once, whatever the number of its nodes
+    double deflection_mm = 0;   ///< largest distance of triangles from their surfaces
+};
+
+/// The file's shapes, as triangles so fine that none is farther from its surface than a quarter of a pixel where the diagonal of the
+/// model's box takes `pixels` of them. Throws Refused, and OpenCASCADE's exceptions.
+[[nodiscard]] Document read_document(const std::string& bytes, Format format, double pixels);
+
+}  // namespace halflit::cad
