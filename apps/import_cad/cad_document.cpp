@@ -24,6 +24,7 @@
 #include <XCAFPrs_DocumentExplorer.hxx>
 
 #include <algorithm>
+#include <cmath>
 #include <istream>
 #include <map>
 #include <utility>
@@ -34,33 +35,34 @@ namespace {
 /// Largest angle between normals of neighbouring vertices. Normals between them are off by its third power: 3e-4, which changes light by
 /// less than a tenth of a code.
 constexpr double kAngleRad = 0.2;
-constexpr double kDeflectionPx = 0.25;
+/// A quarter of a pixel, less what the mesher exceeds it by (5 %), and what the box may be too large by (a ninth).
+constexpr double kDeflectionPx = 0.21;
+
+constexpr std::string_view kBinaryBrep = "Open CASCADE Topology";
 
 /// Name of standard input as a file: IGES is read from files alone.
 constexpr const char* kStandardInput = "/dev/stdin";
 
-struct Begin {
-    Format format;
-    std::string_view mark;
-    std::size_t offset;
-};
-constexpr Begin kBegins[] = {
-    {Format::step, "ISO-10303-21", 0},         {Format::brep, "DBRep_DrawableShape", 0}, {Format::brep, "CASCADE Topology", 0},
-    {Format::brep, "Open CASCADE Topology", 0}, {Format::iges, "S      1", 72},
-};
+constexpr std::pair<std::string_view, Format> kBegins[] = {{"ISO-10303-21", Format::step},
+                                                           {"DBRep_DrawableShape", Format::brep},
+                                                           {"CASCADE Topology", Format::brep},
+                                                           {kBinaryBrep, Format::brep}};
 constexpr const char* kNames[] = {"STEP", "IGES", "BREP"};
 
-TopoDS_Shape read_brep(const std::string& bytes) {
+TopoDS_Shape read_brep(const std::string& bytes) try {
     Standard_ArrayStreamBuffer buffer(bytes.data(), bytes.size());
     std::istream stream(&buffer);
+    stream.exceptions(std::ios::failbit | std::ios::badbit);  // the library would read on for ever
     TopoDS_Shape shape;
-    if (std::string_view(bytes).substr(0, 64).find("Open CASCADE Topology") != std::string_view::npos) {
+    if (std::string_view(bytes).substr(0, 64).find(kBinaryBrep) != std::string_view::npos) {
         BinTools::Read(shape, stream);
     } else {
         BRepTools::Read(shape, stream, BRep_Builder());
     }
     if (shape.IsNull()) throw Refused("holds no shape that can be read");
     return shape;
+} catch (const std::ios::failure&) {
+    throw Refused("cannot be read to its end, or is not well-formed");
 }
 
 template <class Reader>
@@ -101,8 +103,10 @@ std::string utf8_of(const TDF_Label& label) {
     return text;
 }
 
-/// Names that OpenCASCADE gives to shapes without one.
-bool is_made_up(const std::string& name) {
+/// Names that programs give to parts and shapes without one: numbers, kinds of shapes.
+bool is_made_up(std::string name) {
+    if (name.rfind("NAUO", 0) == 0) name.erase(0, 4);
+    if (name.find_first_not_of("0123456789") == std::string::npos) return true;
     static constexpr const char* kKinds[] = {"COMPOUND", "COMPSOLID", "SOLID", "SHELL", "FACE", "WIRE", "EDGE", "VERTEX", "SHAPE",
                                              "ASSEMBLY", "=>"};
     return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const char* kind) { return name.rfind(kind, 0) == 0; }) &&
@@ -140,6 +144,25 @@ double diagonal_of(const std::vector<std::pair<TopoDS_Shape, TopLoc_Location>>& 
 
 TopoDS_Shape shape_at(const XCAFPrs_DocumentNode& node) { return XCAFDoc_ShapeTool::GetShape(node.RefLabel); }
 
+/// Normals that are opposite to those of the triangles around them, as they may be at poles, where the surface's derivatives vanish.
+/// Vertices and indices from these on count.
+void face_outwards(Patch& patch, std::uint32_t first, std::size_t first_index) {
+    const auto vector = [&](const std::vector<float>& values, std::uint32_t i) {
+        return gp_XYZ(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    };
+    std::vector<gp_XYZ> around(patch.positions.size() / 3 - first);
+    for (std::size_t i = first_index; i < patch.indices.size(); i += 3) {
+        const std::uint32_t* const corner = &patch.indices[i];
+        const gp_XYZ a = vector(patch.positions, corner[0]);
+        const gp_XYZ area = (vector(patch.positions, corner[1]) - a).Crossed(vector(patch.positions, corner[2]) - a);
+        for (int k = 0; k < 3; ++k) around[corner[k] - first] += area;
+    }
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
+        if (around[i].Dot(vector(patch.normals, first + i)) >= 0) continue;
+        for (std::size_t k = 0; k < 3; ++k) patch.normals[3 * (first + i) + k] *= -1;
+    }
+}
+
 Shape shape_of(const XCAFPrs_DocumentNode& node) {
     Shape shape{utf8_of(node.RefLabel), {}};
     if (is_made_up(shape.name)) shape.name.clear();
@@ -170,10 +193,12 @@ Shape shape_of(const XCAFPrs_DocumentNode& node) {
             }
             patch.faces.push_back(number);
         }
+        const std::size_t first_index = patch.indices.size();
         for (int i = face.ElemLower(); i <= face.ElemUpper(); ++i) {
             const Poly_Triangle triangle = face.TriangleOriented(i);
             for (int k = 1; k <= 3; ++k) patch.indices.push_back(first + static_cast<std::uint32_t>(triangle(k) - face.NodeLower()));
         }
+        face_outwards(patch, first, first_index);
     }
     return shape;
 }
@@ -181,12 +206,10 @@ Shape shape_of(const XCAFPrs_DocumentNode& node) {
 }  // namespace
 
 std::optional<Format> find_format(std::string_view bytes) {
-    constexpr std::size_t kBlanks = 8;  // line breaks and marks in front
-    for (const Begin& begin : kBegins) {
-        const std::size_t at = bytes.substr(0, begin.offset + begin.mark.size() + kBlanks).find(begin.mark);
-        if (at != std::string_view::npos && (begin.offset == 0 || at == begin.offset)) return begin.format;
-    }
-    return std::nullopt;
+    constexpr std::size_t kBlanks = 8, kIgesMark = 72;  // line breaks and marks in front; column of the section's letter
+    for (const auto& [mark, format] : kBegins)
+        if (bytes.substr(0, mark.size() + kBlanks).find(mark) != std::string_view::npos) return format;
+    return bytes.size() > kIgesMark && bytes[kIgesMark] == 'S' ? std::optional(Format::iges) : std::nullopt;
 }
 
 const char* format_name(Format format) { return kNames[static_cast<std::size_t>(format)]; }

@@ -53,7 +53,7 @@ private:
             primitive["attributes"] = {{"POSITION", floats(patch.positions, "VEC3", true)}, {"NORMAL", floats(patch.normals, "VEC3", false)},
                                        {"_FACE", floats(patch.faces, "SCALAR", false)}};
             primitive["indices"] = accessor(view(patch.indices, 34963), 5125, patch.indices.size(), "SCALAR");
-            if (patch.color) primitive["material"] = material(*patch.color);
+            primitive["material"] = material(patch.color);
             primitives.push_back(std::move(primitive));
         }
         mesh_of_shape_.push_back(primitives.empty() ? -1 : static_cast<int>(json_["meshes"].size()));
@@ -90,10 +90,14 @@ private:
         json_["scene"] = 0;
     }
 
-    int material(const std::array<float, 4>& color) {
+    /// As halflit has it for formats without materials. Shells of surfaces are seen from both sides.
+    int material(const std::optional<std::array<float, 4>>& color) {
+        constexpr std::array<float, 4> kGrey = {0.5f, 0.5f, 0.5f, 1.0f};
         json& all = json_["materials"];
-        json made = {{"pbrMetallicRoughness", {{"baseColorFactor", color}, {"metallicFactor", 0}}}};
-        if (color[3] < 1.0f) made["alphaMode"] = "BLEND";
+        json made = {{"doubleSided", true},
+                     {"pbrMetallicRoughness",
+                      {{"baseColorFactor", color.value_or(kGrey)}, {"metallicFactor", 0}, {"roughnessFactor", color ? 0.6 : 0.4}}}};
+        if (color && (*color)[3] < 1.0f) made["alphaMode"] = "BLEND";
         for (std::size_t i = 0; i < all.size(); ++i)
             if (all[i] == made) return static_cast<int>(i);
         all.push_back(std::move(made));

@@ -117,6 +117,13 @@ bool begins_with_usd(std::span<const std::byte> bytes) {
     return name.ends_with(".usdc") || name.ends_with(".usda") || name.ends_with(".usd");
 }
 
+/// True for a first line of section S, whose columns 73 to 80 are "S" and its number, behind blanks or zeros.
+bool is_iges(std::span<const std::byte> bytes) {
+    constexpr std::size_t kNumber = 73, kEnd = 80;
+    const std::string_view text = begin_of(bytes).substr(0, kEnd);
+    return text.size() == kEnd && text.find_first_not_of(" 0", kNumber) == kEnd - 1 && text[kEnd - 1] == '1';
+}
+
 constexpr std::string_view kByBlender = "convert it by Blender to GLB",
                            kByImporter = "the program halflit-import-cad reads it, and is not here",
                            kByCad = "export it from a CAD program (FreeCAD, CadQuery) as STL or 3MF",
@@ -135,7 +142,7 @@ constexpr ForeignFormat kForeign[] = {
     {"USD (text)", "usda", "#usda", kByBlender},
     {"IFC", "ifc", "ISO-10303-21", "convert it by IfcConvert (IfcOpenShell) to GLB", "IFC"},
     {"STEP", "step stp p21", "ISO-10303-21", kByImporter, "", 0, nullptr, read_cad},
-    {"IGES", "iges igs", "S      1", kByImporter, "", 72, nullptr, read_cad},
+    {"IGES", "iges igs", "S", kByImporter, "", 72, is_iges, read_cad},
     {"DXF", "dxf", "AutoCAD Binary DXF", kByCad},
     {"DXF", "dxf", "", kByCad, "SECTION", 0,
      [](std::span<const std::byte> bytes) {
@@ -146,6 +153,7 @@ constexpr ForeignFormat kForeign[] = {
     {"JT", "jt", "Version ", kByCad, "DM "},
     {"BREP", "brep brp", "DBRep_DrawableShape", kByImporter, "", 0, nullptr, read_cad},
     {"BREP", "brep brp", "CASCADE Topology", kByImporter, "", 0, nullptr, read_cad},
+    {"BREP", "brep brp", "Open CASCADE Topology", kByImporter, "", 0, nullptr, read_cad},
     {"Parasolid", "x_t x_b", "**ABCDEF", kByItsCad},
     {"ACIS", "sat sab", "", kByItsCad},
     {"OpenSCAD", "scad csg", "", "export it by OpenSCAD (openscad -o part.stl part.scad)"},
@@ -211,9 +219,11 @@ bool has_extension(std::string_view name, const ForeignFormat& row) {
 const ForeignFormat* find_foreign_format(const ModelFile& file) {
     if (fits_binary_stl(file.bytes)) return nullptr;  // whose title is free
     const std::string_view text = begin_of(file.bytes);
+    const std::size_t first = text.find_first_not_of("\r\n");  // BREP files begin with a line break
     const ForeignFormat* found = nullptr;
     for (const ForeignFormat& row : kForeign) {
-        const bool is_like = text.size() > row.offset && text.substr(row.offset).starts_with(row.begins) &&
+        const std::size_t offset = row.offset > 0 ? row.offset : first;
+        const bool is_like = text.size() > offset && text.substr(offset).starts_with(row.begins) &&
                              text.find(row.holds) != std::string_view::npos && (row.is_it == nullptr || row.is_it(file.bytes));
         if (!is_like || (row.begins.empty() && row.holds.empty())) continue;
         if (has_extension(file.name, row)) return &row;
