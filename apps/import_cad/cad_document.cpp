@@ -4,8 +4,10 @@
 #include <BRepMesh_Context.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
+#include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
+#include <GProp_GProps.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <Interface_Static.hxx>
@@ -47,7 +49,6 @@ constexpr std::pair<std::string_view, Format> kBegins[] = {{"ISO-10303-21", Form
                                                            {"DBRep_DrawableShape", Format::brep},
                                                            {"CASCADE Topology", Format::brep},
                                                            {kBinaryBrep, Format::brep}};
-constexpr const char* kNames[] = {"STEP", "IGES", "BREP"};
 
 TopoDS_Shape read_brep(const std::string& bytes) try {
     Standard_ArrayStreamBuffer buffer(bytes.data(), bytes.size());
@@ -142,6 +143,29 @@ double diagonal_of(const std::vector<std::pair<TopoDS_Shape, TopLoc_Location>>& 
     return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
 }
 
+std::array<double, 8> measures_of(const std::vector<std::pair<TopoDS_Shape, TopLoc_Location>>& placed) {
+    constexpr double kRelativeError = 1e-6;
+    Bnd_Box box;
+    double area = 0, volume = 0;
+    for (const auto& [shape, location] : placed) {
+        const TopoDS_Shape there = shape.Moved(location);
+        BRepBndLib::AddOptimal(there, box, false, false);
+        GProp_GProps surface;
+        BRepGProp::SurfaceProperties(there, surface, kRelativeError);
+        area += surface.Mass();
+        for (TopExp_Explorer one(there, TopAbs_SOLID); one.More(); one.Next()) {
+            GProp_GProps solid;
+            BRepGProp::VolumeProperties(one.Current(), solid, kRelativeError);
+            volume += solid.Mass();
+        }
+    }
+    std::array<double, 8> m{0, 0, 0, 0, 0, 0, area, volume};
+    if (!box.IsVoid()) box.Get(m[0], m[1], m[2], m[3], m[4], m[5]);
+    for (double& x : m)
+        if (std::abs(x) <= Precision::Confusion()) x = 0;
+    return m;
+}
+
 TopoDS_Shape shape_at(const XCAFPrs_DocumentNode& node) { return XCAFDoc_ShapeTool::GetShape(node.RefLabel); }
 
 /// Normals that are opposite to those of the triangles around them, as they may be at poles, where the surface's derivatives vanish.
@@ -212,11 +236,9 @@ std::optional<Format> find_format(std::string_view bytes) {
     return bytes.size() > kIgesMark && bytes[kIgesMark] == 'S' ? std::optional(Format::iges) : std::nullopt;
 }
 
-const char* format_name(Format format) { return kNames[static_cast<std::size_t>(format)]; }
-
-Document read_document(const std::string& bytes, Format format, double pixels) {
+Document read_document(const std::string& bytes, Format format, double pixels, bool measure) {
     const Handle(TDocStd_Document) document = read_shapes(bytes, format);
-    Document out{format, {}, {}};
+    Document out;
     std::vector<XCAFPrs_DocumentNode> leaves;  // of out.shapes
     std::vector<std::pair<TopoDS_Shape, TopLoc_Location>> placed;
     std::map<std::string, int> shape_of_key;
@@ -243,12 +265,13 @@ Document read_document(const std::string& bytes, Format format, double pixels) {
     // The box of the surfaces' poles may be much larger than that of the triangles.
     constexpr double kSame = 0.9;
     for (double loose = diagonal_of(placed), tight = 0.0;; loose = tight) {
-        out.deflection_mm = std::max(kDeflectionPx * loose / pixels, Precision::Confusion());
-        for (const XCAFPrs_DocumentNode& leaf : leaves) mesh(shape_at(leaf), out.deflection_mm);
+        const double deflection_mm = std::max(kDeflectionPx * loose / pixels, Precision::Confusion());
+        for (const XCAFPrs_DocumentNode& leaf : leaves) mesh(shape_at(leaf), deflection_mm);
         tight = diagonal_of(placed);
         if (tight >= kSame * loose) break;
     }
     for (const XCAFPrs_DocumentNode& leaf : leaves) out.shapes.push_back(shape_of(leaf));
+    if (measure) out.measures = measures_of(placed);
     return out;
 }
 

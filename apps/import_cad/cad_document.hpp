@@ -23,7 +23,6 @@ enum class Format : std::uint8_t { step, iges, brep };
 
 /// By the file's first bytes; nothing: none of these.
 [[nodiscard]] std::optional<Format> find_format(std::string_view bytes);
-[[nodiscard]] const char* format_name(Format format);
 
 /// Triangles of one colour, of one face behind the other.
 struct Patch {
@@ -46,14 +45,13 @@ struct Node {
 };
 
 struct Document {
-    Format format;
     std::vector<Node> nodes;
     std::vector<Shape> shapes;  ///< each once, whatever the number of its nodes
-    double deflection_mm = 0;   ///< largest distance of triangles from their surfaces
+    std::optional<std::array<double, 8>> measures;  ///< corners of the box, area, volume; millimetres
 };
 
 /// The file's shapes, as triangles so fine that none is farther from its surface than a quarter of a pixel where the diagonal of the
-/// model's box takes `pixels` of them. Throws Refused, and OpenCASCADE's exceptions.
-[[nodiscard]] Document read_document(const std::string& bytes, Format format, double pixels);
+/// model's box takes `pixels` of them. measure: with Document::measures. Throws Refused, and OpenCASCADE's exceptions.
+[[nodiscard]] Document read_document(const std::string& bytes, Format format, double pixels, bool measure);
 
 }  // namespace halflit::cad

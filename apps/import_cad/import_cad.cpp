@@ -1,4 +1,4 @@
-// halflit-import-cad: a STEP, IGES or BREP file on standard input becomes glTF (GLB) on standard output. docs/importers.md says how
+// halflit-import-cad: a STEP, IGES or BREP file on standard input becomes glTF (GLB) on standard output. docs/formats.md#importers says how
 // importers are called.
 #include "apps/import_cad/cad_document.hpp"
 
@@ -34,11 +34,8 @@ public:
     /// The file's bytes.
     static std::string write(const Document& document) {
         GlbWriter writer;
-        writer.json_["asset"] = {
-            {"version", "2.0"},
-            {"generator", "halflit-import-cad"},
-            {"extras",
-             {{"halflit", {{"format", format_name(document.format)}, {"up", "z"}, {"unit_m", 1e-3}, {"deflection", document.deflection_mm}}}}}};
+        writer.json_["asset"] = {{"version", "2.0"}, {"generator", "halflit-import-cad"}};
+        if (document.measures) writer.json_["asset"]["extras"]["halflit"]["measures"] = *document.measures;
         for (const Shape& shape : document.shapes) writer.add(shape);
         writer.add_nodes(document);
         return writer.file();
@@ -162,8 +159,9 @@ int fail(Exit code, const std::string& message) {
 }
 
 int run(int argc, char** argv, std::FILE* out) {
-    if (argc != 4 || std::string_view(argv[1]) != "1" || std::string_view(argv[2]) != "--pixels")
-        return fail(kUsage, "usage: halflit-import-cad 1 --pixels N < model.step > model.glb");
+    const bool measure = argc == 5 && std::string_view(argv[4]) == "--measure";
+    if ((argc != 4 && !measure) || std::string_view(argv[1]) != "1" || std::string_view(argv[2]) != "--pixels")
+        return fail(kUsage, "usage: halflit-import-cad 1 --pixels N [--measure] < model.step > model.glb");
     const double pixels = std::atof(argv[3]);
     if (!(pixels >= 1.0 && pixels <= 1e6)) return fail(kUsage, "--pixels: expected 1 to 1e6");
     std::string bytes;
@@ -172,7 +170,7 @@ int run(int argc, char** argv, std::FILE* out) {
     if (std::ferror(stdin) != 0) return fail(kIo, "the model cannot be read");
     const auto format = find_format(bytes);
     if (!format) return fail(kBadInput, "is neither STEP, IGES nor BREP");
-    const Document document = read_document(bytes, *format, pixels);
+    const Document document = read_document(bytes, *format, pixels, measure);
     const std::string file = GlbWriter::write(document);
     const bool written = std::fwrite(file.data(), 1, file.size(), out) == file.size() && std::fflush(out) == 0;
     return written ? kDrawn : fail(kIo, "the result cannot be written");

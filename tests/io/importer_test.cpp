@@ -11,6 +11,8 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 using namespace halflit;
@@ -151,4 +153,37 @@ TEST_CASE("importer: it finds its streams where the host's own are closed", "[io
     CHECK_THAT(error_of("words").message, Contains("1 --pixels"));
     ::dup2(input, 0);
     ::close(input);
+}
+
+TEST_CASE("importer: what it made is kept by the file's bytes and the fineness, where that is asked for", "[io][importer]") {
+    const TemporaryFolder folder;
+    const char* const before = std::getenv("XDG_CACHE_HOME");
+    const std::string kept = before == nullptr ? "" : before;
+    ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const std::string place = folder.file("halflit/import");
+    const auto glbs = [&] {
+        std::vector<std::string> found;
+        for (const auto& entry : std::filesystem::directory_iterator(place))
+            if (entry.path().extension() == ".glb") found.push_back(entry.path().string());
+        return found;
+    };
+    const std::string nothing = R"({"asset":{"version":"2.0"}})";
+    LoadOptions options = by_odd();
+    const auto load = [&](const std::string& text) { return load_model_bytes(to_bytes("gives\n" + text), "x.odd", "", options).has_value(); };
+    CHECK(load(nothing));
+    CHECK(folder.names().empty());
+    options.import_cache = true;
+    CHECK(load(nothing));
+    CHECK(load(nothing));
+    CHECK(glbs().size() == 1);
+    // What is read again is the kept file.
+    for (const std::string& path : glbs()) std::ofstream(path) << "{";
+    CHECK(!load(nothing));
+    options.detail_px = 4096;
+    CHECK(load(nothing));
+    CHECK(load(nothing + " "));
+    CHECK(glbs().size() == 3);
+    CHECK(error_of("code 3", options).code == ErrorCode::bad_input);
+    CHECK(glbs().size() == 3);
+    before == nullptr ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", kept.c_str(), 1);
 }

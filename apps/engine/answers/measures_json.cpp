@@ -2,6 +2,7 @@
 
 #include "halflit/measures.hpp"
 #include "sh/time_limit.hpp"
+#include "sh/vec3d.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -43,15 +44,19 @@ bool is_soon_measured(const Scene& scene) {
     return drawn <= std::max(kMostTriangles, 2 * stored);
 }
 
+/// Largest distance of triangles from the surfaces that they were made of, in the file's unit; nothing: they are the file's own.
+std::optional<double> tolerance_of(const SceneSource& source) {
+    if (!source.file || !source.file->exact) return std::nullopt;
+    constexpr double kShareOfPixel = 0.25;
+    return kShareOfPixel * length(source.file->exact->max - source.file->exact->min) / source.file->detail_px;
+}
+
 /// All measures but for the list of bodies, in the file's unit and along its axes; null if nothing has triangles.
 Json in_file_units(const SceneSource& source, const Measures& found) {
     if (found.triangles == found.not_finite_triangles) return nullptr;
     const Placement& placement = source.placement;
     const auto [name, unit] = file_unit(source);
-    // Quarter turns may exchange the ends of an axis.
-    const Vec3d a = placement.out(found.min), b = placement.out(found.max);
-    const Vec3d min{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-    const Vec3d max{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+    const auto [min, max] = file_box(source, found.min, found.max);
     const Vec3d size = max - min;
     const double largest = std::max({size.x, size.y, size.z});
     return Json{{"unit", name.empty() ? Json(nullptr) : Json(name)},
@@ -90,14 +95,38 @@ Json bodies_json(const SceneSource& source, std::span<const Body> bodies) {
     return list;
 }
 
+/// {"tolerance", "area", "volume"} of the file's surfaces; null: it has triangles.
+Json exact_json(const SceneSource& source) {
+    const std::optional<double> tolerance = tolerance_of(source);
+    if (!tolerance) return nullptr;
+    const ExactMeasures& exact = *source.file->exact;
+    return {{"tolerance", rounded(*tolerance)}, {"area", rounded(exact.area)}, {"volume", rounded(exact.volume)}};
+}
+
 }  // namespace
+
+FileBox file_box(const SceneSource& source, Vec3d min, Vec3d max) {
+    // Quarter turns may exchange the ends of an axis.
+    const Vec3d a = source.placement.out(min), b = source.placement.out(max);
+    FileBox box{{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}, {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
+    const std::optional<double> tolerance = tolerance_of(source);
+    if (!tolerance) return box;
+    const ExactMeasures& exact = *source.file->exact;
+    for (double Vec3d::*const axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+        if (absolute(box.min.*axis - exact.min.*axis) <= *tolerance) box.min.*axis = exact.min.*axis;
+        if (absolute(box.max.*axis - exact.max.*axis) <= *tolerance) box.max.*axis = exact.max.*axis;
+    }
+    return box;
+}
 
 Result<Json> measures_json(const RenderJob& job) {
     if (!is_soon_measured(job.scene())) return Json(nullptr);
     const auto measured = measure_bodies(job.scene(), kMostBodies);
     if (!measured) return tl::unexpected(measured.error());
     Json all = in_file_units(job.source, measured->all);
-    if (!all.is_null()) all["body_list"] = bodies_json(job.source, measured->bodies);
+    if (all.is_null()) return all;
+    all["exact"] = exact_json(job.source);
+    all["body_list"] = bodies_json(job.source, measured->bodies);
     return all;
 }
 

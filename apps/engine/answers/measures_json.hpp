@@ -13,6 +13,13 @@ namespace halflit::engine {
 /// {"size", "area", "volume", "watertight", "open_edges"} of a part, drawn or not, in the same unit. Null if it has no triangles.
 [[nodiscard]] Result<Json> part_measures_json(const RenderJob& job, const Part& part);
 
+/// Corners of a box of the drawn world in the file's coordinates. Where the file's exact box ends there too, but for the tolerance of
+/// triangles, its numbers are given.
+struct FileBox {
+    Vec3d min, max;
+};
+[[nodiscard]] FileBox file_box(const SceneSource& source, Vec3d min, Vec3d max);
+
 /// False where measures_json() is null for the number of triangles.
 [[nodiscard]] bool parts_are_soon_measured(const RenderJob& job);
 

@@ -205,7 +205,7 @@ Call compare_call() {
 }
 
 Result<Answer> run_info(const RenderOptions& options, bool measure_parts) {
-    const auto job = make_render_job(options, kRenderSize);
+    const auto job = make_measured_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     const auto text = describe_scene(*job, true, measure_parts);
     if (!text) return tl::unexpected(text.error());
@@ -224,7 +224,7 @@ Call info_call() {
 }
 
 Result<Answer> run_measure(const RenderOptions& options) {
-    const auto job = make_render_job(options, kRenderSize);
+    const auto job = make_measured_job(options, kRenderSize);
     if (!job) return tl::unexpected(job.error());
     auto measures = measures_json(*job);
     if (!measures) return tl::unexpected(measures.error());

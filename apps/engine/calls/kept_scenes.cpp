@@ -20,10 +20,11 @@ auto key_of(const LoadLimits& limits) {
 }
 auto key_of(const LoadOptions& options) {
     const auto& [strict, external, limits, threads, recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate, detail,
-                 importers] = options;
-    (void)threads;  // the result is the same
+                 exact, cache, importers] = options;
+    (void)threads, (void)cache;  // the result is the same
     return std::make_tuple(strict, external, key_of(limits), recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate,
-                           detail, importers);
+                           detail,
+                           exact, importers);
 }
 
 std::size_t bytes_of_scene(const Scene& scene) {

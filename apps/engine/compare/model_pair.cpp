@@ -92,10 +92,10 @@ std::vector<Camera> cameras_of(const ModelPair& pair, const Scene& outlines, con
 Result<ModelPair> load_pair(const CompareOptions& options) {
     CompareOptions flags = with_defaults(options);
     flags.scene = options.a;
-    auto a = make_render_job(flags, kCompareSize);
+    auto a = make_measured_job(flags, kCompareSize);
     if (!a) return tl::unexpected(a.error());
     flags.scene = options.b;
-    auto b = make_render_job(flags, kCompareSize);
+    auto b = make_measured_job(flags, kCompareSize);
     if (!b) return tl::unexpected(b.error());
     ModelPair pair{std::move(*a), std::move(*b), {}, {}, {}, {}};
     for (const auto& [name, job] : {std::pair<const char*, const RenderJob*>{"A", &pair.a}, {"B", &pair.b}})

@@ -481,6 +481,7 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     RenderOptions timed = options;
     timed.load = options.timed_load();
     timed.load.keep_animations = options.film.animates();
+    timed.load.import_cache = options.import_cache;
     if (!flags.detail_given) timed.load.detail_px = framed_detail(options, usual);
     auto source = load_scene(timed);
     if (!source) return tl::unexpected(source.error());
@@ -544,6 +545,11 @@ Result<void> check_request(const RenderOptions& options, PictureSize usual) {
 
 Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual) {
     return within_time(options.timeout_s, [&] { return make_job(options, usual); });
+}
+
+Result<RenderJob> make_measured_job(RenderOptions options, PictureSize usual) {
+    options.load.exact_measures = true;
+    return make_render_job(options, usual);
 }
 
 std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& options) {

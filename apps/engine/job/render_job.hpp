@@ -64,6 +64,9 @@ struct RenderJob {
 /// scene are reported before it is loaded.
 [[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);
 
+/// The same for answers with measures: the exact ones of the file too, if its format has them.
+[[nodiscard]] Result<RenderJob> make_measured_job(RenderOptions options, PictureSize usual);
+
 /// The sides that --view asks for, without the margin of --fit. Names are relative to the scene's front.
 [[nodiscard]] std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& options);
 

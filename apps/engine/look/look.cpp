@@ -152,7 +152,7 @@ Result<RenderJob> look_job(LookOptions& options) {
                         "found " +
                             (names.empty() ? std::string("one camera") : joined(names, ", ")));
     }
-    return make_render_job(options, usual_size(options));
+    return make_measured_job(options, usual_size(options));
 }
 
 Result<LookResult> look(const LookOptions& given) {

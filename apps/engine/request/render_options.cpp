@@ -358,6 +358,8 @@ FlagGroup surface_flags(RenderOptions& o) {
               o.detail_given = true;
               return assign(o.load.detail_px, parse_float(text, 1.0f, 1e6f));
           }},
+         {"--no-cache", "", "Do not keep what importers make in ~/.cache/halflit/import, and do not read it there",
+          set_to(o.import_cache, false)},
          {.names = "--importer",
           .form = ".EXT=PROGRAM",
           .help = "Read files with this extension by a program that makes glTF of them",

@@ -90,6 +90,7 @@ struct RenderOptions {
     float exposure_compensation_ev = 0.0f;
 
     LoadOptions load;
+    bool import_cache = true;       ///< keep what importers make in the user's cache
     bool detail_given = false;      ///< load.detail_px counts; otherwise it follows from the view
     SceneKeeper* keeper = nullptr;  ///< loads the scene; null: load_scene() alone
     FilmOptions film;               ///< of render alone

@@ -4,6 +4,7 @@
 #include "apps/io/files/load_failure.hpp"
 #include "apps/io/files/text.hpp"
 #include "apps/io/gltf/loader.hpp"
+#include "apps/io/models/import_cache.hpp"
 #include "apps/io/models/model_text.hpp"
 #include "apps/io/platform/child.hpp"
 #include "apps/io/platform/errno_text.hpp"
@@ -69,8 +70,12 @@ std::string reason_in(const std::string& messages) {
 
 std::vector<std::byte> import_by(const std::string& program, const ModelFile& file, const LoadOptions& options) {
     const platform::ChildLimits limits = limits_for(file.bytes.size(), options.limits);
+    std::vector<std::string> words{program, kProtocol, "--pixels", fmt::format("{:g}", options.detail_px)};
+    if (options.exact_measures) words.emplace_back("--measure");
+    const ImportCache cache(options.import_cache ? user_import_cache() : "", words, file.bytes);
+    if (auto kept = cache.find()) return *std::move(kept);
     platform::ChildResult result =
-        platform::run_confined({program, kProtocol, "--pixels", fmt::format("{:g}", options.detail_px)}, file.bytes, limits);
+        platform::run_confined(words, file.bytes, limits);
     const std::string name = printable(program.substr(program.rfind('/') + 1)), reason = reason_in(result.messages);
     using End = platform::ChildResult::End;
     switch (result.end) {
@@ -87,7 +92,10 @@ std::vector<std::byte> import_by(const std::string& program, const ModelFile& fi
             break;
     }
     constexpr int kLimit = 5;
-    if (result.number == 0) return std::move(result.output);
+    if (result.number == 0) {
+        cache.keep(result.output);
+        return std::move(result.output);
+    }
     refuse("", fmt::format("{}: {}", name, reason.empty() ? fmt::format("exit code {}", result.number) : reason),
            result.number == kLimit ? ErrorCode::limit : ErrorCode::bad_input);
 }

@@ -1,4 +1,4 @@
-// Formats that a program of its own turns into glTF (docs/importers.md).
+// Formats that a program of its own turns into glTF (docs/formats.md#importers).
 #pragma once
 
 #include "apps/io/models/model_readers.hpp"

@@ -82,6 +82,8 @@ void fill_info(Document& document, std::span<const std::byte> bytes) {
     info.unit_m = 1.0;
     info.version = file.version;
     info.generator = printable(file.generator, 100);
+    if (const std::vector<double>& m = file.measures; m.size() == 8)
+        info.exact = ExactMeasures{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], m[7]};
     info.scenes = file.scenes.size();
     info.meshes = file.meshes.size();
     info.primitives = file.primitives;

@@ -66,7 +66,7 @@ struct LoadLimits {
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
 };
 
-/// A program that turns files of another format into glTF: docs/importers.md.
+/// A program that turns files of another format into glTF: docs/formats.md#importers.
 struct Importer {
     std::string extension;  ///< of the files, with its point
     std::string program;    ///< its path; it is run with as few rights as the system can take from it
@@ -117,6 +117,9 @@ struct LoadOptions {
     /// STEP, IGES, BREP and what importers read: the picture's pixels along the diagonal of the model's box, in [1, 1e6]. Triangles are at
     /// most a quarter of such a pixel from the surfaces.
     double detail_px = 2048.0;
+    bool exact_measures = false;  ///< STEP, IGES, BREP: measures their surfaces too (SceneInfo::exact), which takes longer
+    /// Keeps what importers make in the user's cache, halflit/import in XDG_CACHE_HOME or ~/.cache, at most 256 MiB.
+    bool import_cache = false;
     /// Asked before the formats that are known, by the file's name; the first one with its extension counts. Then those of the user's file
     /// halflit/importers in XDG_CONFIG_HOME or ~/.config: a line ".ext=PROGRAM" for each.
     std::vector<Importer> importers{};
@@ -133,6 +136,13 @@ struct AnimationInfo {
 /// so any number of threads may use it.
 class Motion;
 
+/// Measures of a file's surfaces, not of the triangles that are drawn: millimetres, along the file's axes.
+struct ExactMeasures {
+    Vec3d min{}, max{};    ///< corners of the smallest box along the axes
+    double area = 0.0;     ///< of all faces
+    double volume = 0.0;   ///< of all solids
+};
+
 /// Contents of the file, drawn or not.
 struct SceneInfo {
     std::string format;              ///< model_format_name(), or "G-code" for its picture
@@ -145,6 +155,7 @@ struct SceneInfo {
     /// @}
     double unit_m = 0.0;                        ///< length of the file's unit in metres; 0: the format has none
     double detail_px = 0.0;                     ///< LoadOptions::detail_px of an importer's triangles; 0: they are the file's own
+    std::optional<ExactMeasures> exact{};       ///< with LoadOptions::exact_measures, of formats that have exact surfaces
     std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are points or lines
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances
