@@ -1,25 +1,25 @@
 #include "apps/import_cad/cad_document.hpp"
 
+#include <BinTools.hxx>
+#include <BRep_Builder.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
 #include <BRepMesh_Context.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
-#include <BRepGProp.hxx>
-#include <BRep_Builder.hxx>
-#include <BinTools.hxx>
 #include <GProp_GProps.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <Interface_Static.hxx>
 #include <RWMesh_FaceIterator.hxx>
-#include <STEPCAFControl_Reader.hxx>
 #include <Standard_ArrayStreamBuffer.hxx>
-#include <TDF_Tool.hxx>
+#include <STEPCAFControl_Reader.hxx>
 #include <TDataStd_Name.hxx>
+#include <TDF_Tool.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
@@ -45,10 +45,8 @@ constexpr std::string_view kBinaryBrep = "Open CASCADE Topology";
 /// Name of standard input as a file: IGES is read from files alone.
 constexpr const char* kStandardInput = "/dev/stdin";
 
-constexpr std::pair<std::string_view, Format> kBegins[] = {{"ISO-10303-21", Format::step},
-                                                           {"DBRep_DrawableShape", Format::brep},
-                                                           {"CASCADE Topology", Format::brep},
-                                                           {kBinaryBrep, Format::brep}};
+constexpr std::pair<std::string_view, Format> kBegins[] = {
+    {"ISO-10303-21", Format::step}, {"DBRep_DrawableShape", Format::brep}, {"CASCADE Topology", Format::brep}, {kBinaryBrep, Format::brep}};
 
 TopoDS_Shape read_brep(const std::string& bytes) try {
     Standard_ArrayStreamBuffer buffer(bytes.data(), bytes.size());
@@ -108,8 +106,8 @@ std::string utf8_of(const TDF_Label& label) {
 bool is_made_up(std::string name) {
     if (name.rfind("NAUO", 0) == 0) name.erase(0, 4);
     if (name.find_first_not_of("0123456789") == std::string::npos) return true;
-    static constexpr const char* kKinds[] = {"COMPOUND", "COMPSOLID", "SOLID", "SHELL", "FACE", "WIRE", "EDGE", "VERTEX", "SHAPE",
-                                             "ASSEMBLY", "=>"};
+    static constexpr const char* kKinds[] = {"COMPOUND", "COMPSOLID", "SOLID", "SHELL",    "FACE", "WIRE",
+                                             "EDGE",     "VERTEX",    "SHAPE", "ASSEMBLY", "=>"};
     return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const char* kind) { return name.rfind(kind, 0) == 0; }) &&
            name.find_first_of(" _") == std::string::npos;
 }

@@ -46,7 +46,7 @@ struct Node {
 
 struct Document {
     std::vector<Node> nodes;
-    std::vector<Shape> shapes;  ///< each once, whatever the number of its nodes
+    std::vector<Shape> shapes;                      ///< each once, whatever the number of its nodes
     std::optional<std::array<double, 8>> measures;  ///< corners of the box, area, volume; millimetres
 };
 

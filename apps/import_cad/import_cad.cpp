@@ -3,6 +3,7 @@
 #include "apps/import_cad/cad_document.hpp"
 
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <iostream>
 #include <iterator>
 #include <limits>
@@ -47,7 +49,8 @@ private:
         for (const Patch& patch : shape.patches) {
             if (patch.indices.empty()) continue;
             json primitive;
-            primitive["attributes"] = {{"POSITION", floats(patch.positions, "VEC3", true)}, {"NORMAL", floats(patch.normals, "VEC3", false)},
+            primitive["attributes"] = {{"POSITION", floats(patch.positions, "VEC3", true)},
+                                       {"NORMAL", floats(patch.normals, "VEC3", false)},
                                        {"_FACE", floats(patch.faces, "SCALAR", false)}};
             primitive["indices"] = accessor(view(patch.indices, 34963), 5125, patch.indices.size(), "SCALAR");
             primitive["material"] = material(patch.color);
@@ -122,7 +125,8 @@ private:
 
     template <class T>
     int view(const std::vector<T>& values, int target) {
-        json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", 4 * values.size()}, {"target", target}});
+        json_["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", 4 * values.size()}, {"target", target}});
         for (const T value : values) put_u32(bytes_, std::bit_cast<std::uint32_t>(value));
         return static_cast<int>(json_["bufferViews"].size()) - 1;
     }
@@ -176,22 +180,34 @@ int run(int argc, char** argv, std::FILE* out) {
     return written ? kDrawn : fail(kIo, "the result cannot be written");
 }
 
+/// The exit code for the exception that is handled, with its reason told.
+int fail_as_caught() {
+    try {
+        throw;
+    } catch (const Refused& refused) {
+        return fail(kBadInput, refused.what());
+    } catch (const Standard_OutOfMemory&) {
+        return fail(kLimit, "out of memory");
+    } catch (const std::bad_alloc&) {
+        return fail(kLimit, "out of memory");
+    } catch (const Standard_Failure& failure) {
+        return fail(kBadInput, std::string("OpenCASCADE: ") + failure.DynamicType()->Name() + ' ' + failure.GetMessageString());
+    } catch (const std::exception& error) {
+        return fail(kBadInput, error.what());
+    }
+}
+
 }  // namespace
 }  // namespace halflit::cad
 
 int main(int argc, char** argv) {
     using namespace halflit::cad;
-    std::FILE* const out = ::fdopen(::dup(1), "wb");  // the library's messages go to standard output
+    std::set_terminate([] { std::_Exit(fail_as_caught()); });  // the library throws where nothing may be thrown
+    std::FILE* const out = ::fdopen(::dup(1), "wb");           // and writes messages to standard output
     if (out == nullptr || ::dup2(2, 1) < 0) return fail(kIo, "there is no standard output");
     try {
         return run(argc, argv, out);
-    } catch (const Refused& refused) {
-        return fail(kBadInput, refused.what());
-    } catch (const Standard_Failure& failure) {
-        return fail(kBadInput, std::string("OpenCASCADE: ") + failure.DynamicType()->Name() + ' ' + failure.GetMessageString());
-    } catch (const std::bad_alloc&) {
-        return fail(kLimit, "out of memory");
-    } catch (const std::exception& error) {
-        return fail(kBadInput, error.what());
+    } catch (...) {
+        return fail_as_caught();
     }
 }

@@ -84,8 +84,7 @@ TEST_CASE("cad: names, colours, assemblies and places of a STEP file are the sce
     CHECK(std::abs(albedo(0).x - 0.6038f) < 2e-4f);
     CHECK(std::abs(albedo(0).y - 0.0331f) < 2e-4f);
     int blue = 0;
-    for (std::size_t i = 0; i < loaded.scene.instances.size(); ++i)
-        blue += std::abs(albedo(i).z - 0.6038f) < 2e-4f ? 1 : 0;
+    for (std::size_t i = 0; i < loaded.scene.instances.size(); ++i) blue += std::abs(albedo(i).z - 0.6038f) < 2e-4f ? 1 : 0;
     CHECK(blue == 2);
 
     const Json measures = info_of({})["measures"];
@@ -105,7 +104,7 @@ TEST_CASE("cad: triangles are within a quarter of a pixel of the surface, whose 
     if (!has_importer()) HALFLIT_SKIP("halflit-import-cad was not built");
     const double diagonal = 20 * std::sqrt(3.0);
     for (const std::string name : {"ball.brep", "ball.igs"}) {
-        for (const double detail : {128.0, 1024.0, 8192.0}) {
+        for (const double detail : {128.0, 1024.0, 4096.0}) {
             INFO(name << " " << detail);
             const LoadedScene ball = load_cad(kModels + name, detail);
             CHECK(ball.info.detail_px == detail);
@@ -122,8 +121,9 @@ TEST_CASE("cad: the fineness follows the view, and a finer one changes no pixel 
     if (!has_importer()) HALFLIT_SKIP("halflit-import-cad was not built");
     const auto detail = [](const std::vector<std::string>& flags) { return info_of(flags)["file"]["detail_px"].get<double>(); };
     CHECK(detail({}) == 2048);
-    CHECK(detail({"--size", "256x256"}) == 512);
-    CHECK(detail({"--size", "256x256", "--zoom", "4"}) == 2048);
+    CHECK(detail({"--size", "256x256"}) == 2048);
+    CHECK(detail({"--size", "1600x900"}) == 4096);
+    CHECK(detail({"--size", "1600x900", "--zoom", "4"}) == 16384);
     CHECK(detail({"--detail", "100"}) == 100);
     CHECK(detail({"--camera-position", "14,0,40", "--camera-target", "0,0,40"}) > 8192);
 
@@ -135,16 +135,16 @@ TEST_CASE("cad: the fineness follows the view, and a finer one changes no pixel 
         return std::pair(read_picture(contents(folder.file("x.png"))), read_picture(contents(folder.file("x.coverage.png"))));
     };
     const auto [usual, coverage] = draw({});
-    const auto [fine, unused] = draw({"--detail", "16384"});
+    const auto [fine, unused] = draw({"--detail", "8192"});
     const auto is_inside = [&, &all = coverage](int x, int y) {
-        for (int dy = -2; dy <= 2; ++dy)
-            for (int dx = -2; dx <= 2; ++dx)
+        for (int dy = -3; dy <= 3; ++dy)  // beside an outline a pixel's surface turns by more than its light's rounding
+            for (int dx = -3; dx <= 3; ++dx)
                 if (all.pixel(x + dx, y + dy)[0] != 255) return false;
         return true;
     };
     int inside = 0, most = 0;
-    for (int y = 2; y < 238; ++y) {
-        for (int x = 2; x < 318; ++x) {
+    for (int y = 3; y < 237; ++y) {
+        for (int x = 3; x < 317; ++x) {
             if (!is_inside(x, y)) continue;
             ++inside;
             for (std::size_t k = 0; k < 3; ++k) most = std::max(most, std::abs(usual.pixel(x, y)[k] - fine.pixel(x, y)[k]));

@@ -169,7 +169,9 @@ TEST_CASE("importer: what it made is kept by the file's bytes and the fineness, 
     };
     const std::string nothing = R"({"asset":{"version":"2.0"}})";
     LoadOptions options = by_odd();
-    const auto load = [&](const std::string& text) { return load_model_bytes(to_bytes("gives\n" + text), "x.odd", "", options).has_value(); };
+    const auto load = [&](const std::string& text) {
+        return load_model_bytes(to_bytes("gives\n" + text), "x.odd", "", options).has_value();
+    };
     CHECK(load(nothing));
     CHECK(folder.names().empty());
     options.import_cache = true;

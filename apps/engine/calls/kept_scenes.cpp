@@ -19,12 +19,11 @@ auto key_of(const LoadLimits& limits) {
     return std::tuple(file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, work, lights);
 }
 auto key_of(const LoadOptions& options) {
-    const auto& [strict, external, limits, threads, recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate, detail,
-                 exact, cache, importers] = options;
+    const auto& [strict, external, limits, threads, recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate, detail, exact,
+                 cache, importers] = options;
     (void)threads, (void)cache;  // the result is the same
     return std::make_tuple(strict, external, key_of(limits), recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate,
-                           detail,
-                           exact, importers);
+                           detail, exact, importers);
 }
 
 std::size_t bytes_of_scene(const Scene& scene) {

@@ -433,9 +433,10 @@ Result<void> check_conflicts(const RenderOptions& options, PictureSize usual) {
     return {};
 }
 
-/// The next power of two, so that views of about one size share what an importer made.
+/// The next power of two, so that views of about one size share what an importer made; at least that of a load without a view.
 double rounded_detail(double pixels) {
-    constexpr double kLeast = 512.0, kMost = 32768.0;
+    constexpr double kMost = 32768.0;
+    const double kLeast = LoadOptions{}.detail_px;
     return std::exp2(std::ceil(std::log2(std::clamp(pixels, kLeast, kMost))));
 }
 

@@ -162,16 +162,17 @@ FlagGroup camera_flags(RenderOptions& o) {
           "COLMAP's images.txt, or a glTF file. Their coordinates and axes are those of the model's file",
           read_text(o.camera_file)},
          of_stage(Stage::load, {"--ground", "", "Add a ground below the scene that shows only shadows", set_to(o.ground)}),
-         of_stage(Stage::load, {"--up", form_of(kUpAxisNames),
-                                fmt::format("Axis of the model that points up (default {}, and z for STL and 3MF). Views, the ground and "
-                                            "the light from above follow it; coordinates stay those of the file",
-                                            name_of(UpAxis::y, kUpAxisNames)),
-                                [&o](const std::string& text) {
-                                    UpAxis up{};
-                                    const auto read = named(up, kUpAxisNames)(plain_axis(text));
-                                    if (read) o.load.up = up;
-                                    return read;
-                                }})},
+         of_stage(Stage::load,
+                  {"--up", form_of(kUpAxisNames),
+                   fmt::format("Axis of the model that points up (default {}, and z for STL, 3MF and CAD files). Views, the ground and "
+                               "the light from above follow it; coordinates stay those of the file",
+                               name_of(UpAxis::y, kUpAxisNames)),
+                   [&o](const std::string& text) {
+                       UpAxis up{};
+                       const auto read = named(up, kUpAxisNames)(plain_axis(text));
+                       if (read) o.load.up = up;
+                       return read;
+                   }})},
         Stage::draw};
 }
 

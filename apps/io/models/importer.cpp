@@ -38,7 +38,7 @@ bool is_program(const std::string& path) {
 std::string find_program(const std::string& name) {
     std::vector<std::string> folders;
     if (const std::string own = platform::own_folder(); !own.empty())
-        for (const char* const place : {"", "/../libexec/halflit", "/../../libexec/halflit"}) folders.push_back(own + place);
+        for (const char* const place : {"", "/../bin", "/../libexec/halflit", "/../../libexec/halflit"}) folders.push_back(own + place);
     const std::string path = variable("PATH");
     for (std::string_view rest = path; !rest.empty();) {
         const std::string_view folder = rest.substr(0, rest.find(':'));
@@ -74,8 +74,7 @@ std::vector<std::byte> import_by(const std::string& program, const ModelFile& fi
     if (options.exact_measures) words.emplace_back("--measure");
     const ImportCache cache(options.import_cache ? user_import_cache() : "", words, file.bytes);
     if (auto kept = cache.find()) return *std::move(kept);
-    platform::ChildResult result =
-        platform::run_confined(words, file.bytes, limits);
+    platform::ChildResult result = platform::run_confined(words, file.bytes, limits);
     const std::string name = printable(program.substr(program.rfind('/') + 1)), reason = reason_in(result.messages);
     using End = platform::ChildResult::End;
     switch (result.end) {

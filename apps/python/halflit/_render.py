@@ -42,7 +42,7 @@ def render(
     A file without any keyword gives the pixels that `halflit render FILE --size WxH` gives. Keywords for all but a Scene:
     lights: Light objects, or dicts of their members; environment: an image or a path as in Scene.set_environment(), "sky", "studio" or
     "none"; environment_rotate: degrees; scene_lights: False leaves out those of the file; ground: a ground that shows shadows alone.
-    up: the axis that points up, "z" and so on; by default z for STL and 3MF, and for what trimesh has read from them, and y for the rest.
+    up: the axis that points up, "z" and so on; by default z for STL, 3MF and CAD files, and for what trimesh has read from them, and y for the rest.
     For files and their bytes: animation, time (seconds), scene, variant, as in Scene.load(); load: other keywords of it.
     Further keywords are those of Scene.render(): camera, azimuth, elevation, zoom, samples, background, exposure, aovs, max_error,
     threads and so on (halflit.PictureOptions).

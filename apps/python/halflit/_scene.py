@@ -68,7 +68,7 @@ class Scene(Geometry, Lighting):
         keep_animations: for pose(). base_dir: folder of files that bytes refer to; without it none is read.
         recentre: a model that is far from the origin is drawn near it, and a tiny or huge one in another size, so that float32 keeps its
         shape. All that is given and asked for stays in the file's own coordinates.
-        up: axis of the model that points up, "x", "y", "z", "-x", "-y" or "-z". The usual one is z for STL and 3MF and y for other files.
+        up: axis of the model that points up, "x", "y", "z", "-x", "-y" or "-z". The usual one is z for STL, 3MF and CAD files, y for others.
         Other keywords are members of halflit_load_options, such as strict=True, crease_deg=60, time_limit_s=10, max_texture_side=4096 or
         allow_external="/models/shared", a folder or a list of folders in which the model's files may lie too. detail_px: how fine STEP
         files become triangles. importers=".ext=PROGRAM": a program, or a list of some, that turns such files into glTF.

@@ -63,7 +63,7 @@ HALFLIT_C_API void halflit_stop_at_interrupt(int32_t stops);
 /// Everything that a picture shows: meshes, instances of them, materials, textures, lights, cameras.
 typedef struct halflit_scene halflit_scene;
 
-/// The axis of a model that points up. BY_FORMAT: z for STL and 3MF, y for the others.
+/// The axis of a model that points up. BY_FORMAT: z for STL, 3MF, STEP, IGES and BREP, y for the others.
 enum {
     HALFLIT_UP_BY_FORMAT = 0,
     HALFLIT_UP_X = 1,

@@ -244,7 +244,7 @@ struct Animation {
 
 struct File {
     std::string_view version, min_version, generator;
-    std::vector<double> measures;  ///< of an importer: ExactMeasures, member by member
+    std::vector<double> measures;   ///< of an importer: ExactMeasures, member by member
     bool has_dictionaries = false;  ///< lists are objects, as in glTF 1.0
     std::vector<std::string_view> extensions_used, extensions_required;
     std::vector<Buffer> buffers;

@@ -105,8 +105,8 @@ struct LoadOptions {
     /// Reads all animations and keeps what they need (LoadedScene::motion), so that pose_at() can pose the scene at other times. A fault of
     /// any of them refuses the file then.
     bool keep_animations = false;
-    /// Axis of the model that points up: the scene is turned so that it becomes y. None: as its format has it by custom, which is z for STL
-    /// and 3MF and y for the others.
+    /// Axis of the model that points up: the scene is turned so that it becomes y. None: as its format has it by custom, which is z for
+    /// STL, 3MF, STEP, IGES and BREP and y for the others.
     std::optional<UpAxis> up{};
     /// Other formats than glTF: where the file has no normals, the surface is smooth across edges whose triangles' normals differ by at
     /// most this, degrees in [0, 180]. In a scan the limit at a vertex is three times the median of its edges' angles, at most twice
@@ -138,9 +138,9 @@ class Motion;
 
 /// Measures of a file's surfaces, not of the triangles that are drawn: millimetres, along the file's axes.
 struct ExactMeasures {
-    Vec3d min{}, max{};    ///< corners of the smallest box along the axes
-    double area = 0.0;     ///< of all faces
-    double volume = 0.0;   ///< of all solids
+    Vec3d min{}, max{};   ///< corners of the smallest box along the axes
+    double area = 0.0;    ///< of all faces
+    double volume = 0.0;  ///< of all solids
 };
 
 /// Contents of the file, drawn or not.

@@ -33,8 +33,8 @@ Handle file_of(std::span<const std::byte> bytes) {
     Handle file = create_unnamed("/tmp", 0600);
 #endif
     const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-    const bool is_written = file.is_open() && write_all(file.get(), {data, bytes.size()}) == 0 &&
-                            ::lseek(static_cast<int>(file.get()), 0, SEEK_SET) == 0;
+    const bool is_written =
+        file.is_open() && write_all(file.get(), {data, bytes.size()}) == 0 && ::lseek(static_cast<int>(file.get()), 0, SEEK_SET) == 0;
     return is_written ? std::move(file) : Handle();
 }
 
@@ -57,8 +57,8 @@ void set_limit(int which, std::uint64_t most) {
 }
 
 /// Between fork and exec: calls that may be made there alone. What is sent through `told` is errno.
-[[noreturn]] void become(char* const* words, int input, const Pipe& output, const Pipe& errors, const Pipe& told, const Confinement& confined,
-                         const ChildLimits& limits) {
+[[noreturn]] void become(char* const* words, int input, const Pipe& output, const Pipe& errors, const Pipe& told,
+                         const Confinement& confined, const ChildLimits& limits) {
     static char* const kEnvironment[] = {const_cast<char*>("PATH=/usr/bin:/bin"), const_cast<char*>("LC_ALL=C"), nullptr};
     constexpr int kTold = 3;  // the first one behind the standard streams
     (void)::setpgid(0, 0);
@@ -181,7 +181,9 @@ std::string own_folder() {
     Dl_info info{};
     if (::dladdr(reinterpret_cast<const void*>(&own_folder), &info) == 0 || info.dli_fname == nullptr) return {};
 #ifdef __linux__
-    const std::string path = std::strchr(info.dli_fname, '/') != nullptr && ::access(info.dli_fname, R_OK) == 0 ? real_path(info.dli_fname) : real_path("/proc/self/exe");
+    const std::string path = std::strchr(info.dli_fname, '/') != nullptr && ::access(info.dli_fname, R_OK) == 0
+                                 ? real_path(info.dli_fname)
+                                 : real_path("/proc/self/exe");
 #else
     const std::string path = real_path(info.dli_fname);
 #endif
