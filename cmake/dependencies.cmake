@@ -32,7 +32,7 @@ set(halflit_rows
     "libwebpmux    program 1.2.4  1.6.0   libwebp-dev          PkgConfig::libwebpmux pkg-config libwebpmux libwebp"
     "SDL2          viewer  2.0.18 2.32.74 libsdl2-dev          PkgConfig::SDL2       pkg-config sdl2"
     "imgui         viewer  1.86   1.92.2  libimgui-dev         PkgConfig::imgui      pkg-config imgui"
-    "OpenCASCADE   cad     7.6    7.6.3   libocct-data-exchange-dev halflit::occt header Standard_Version.hxx ne.OCC_VERSION_MAJOR[^0-9]*([0-9]+) ne.OCC_VERSION_MINOR[^0-9]*([0-9]+) ne.OCC_VERSION_MAINTENANCE[^0-9]*([0-9]+)"
+    "OpenCASCADE   cad     7.6    7.6.3   libocct-data-exchange-dev halflit::occt header Standard_Version.hxx COMPLETE[^0-9:/]+([0-9.]+)"
     "Catch2        tests   2.13   3.7.1   catch2               Catch2::Catch2        find_package Catch2"
     "tinygltf      tests   any    any     libtinygltf-dev      halflit::tinygltf     header tiny_gltf.h"
     "libwebpdemux  tests   1.2.4  1.6.0   libwebp-dev          PkgConfig::libwebpdemux pkg-config libwebpdemux"

@@ -56,9 +56,11 @@ std::vector<std::byte>& add_file(const std::string& name, std::vector<std::byte>
 
 }  // namespace web
 
+// Programs cannot be run here.
+Result<Importer> Importer::from(const std::string& /*text*/) { return fail(ErrorCode::usage, "there are no importers in a browser"); }
+
 namespace io {
 
-// Programs cannot be run here.
 std::optional<LoadedScene> detail::read_cad(const detail::ModelFile& /*file*/, const LoadOptions& /*options*/) { return std::nullopt; }
 std::optional<LoadedScene> detail::read_by_importer(const detail::ModelFile& /*file*/, const LoadOptions& /*options*/) {
     return std::nullopt;

@@ -221,7 +221,7 @@ TEST_CASE("models: a model whose alpha is 0 everywhere is opaque", "[io][3mf]") 
 TEST_CASE("models: formats that are not read are named, with a way to one that is", "[io]") {
     const auto padded = [](std::string text) { return text.append(200 - std::min<std::size_t>(200, text.size()), ' '); };
     const std::pair<std::string, const char*> cases[] = {{"Kaydara FBX Binary  ", "is FBX"},
-                                                         {"ISO-10303-21;", "STEP"},
+                                                         {"Version 9.5 JT DM 7.0", "JT"},
                                                          {"LASF", "LAS"},
                                                          {"ASTM-E57", "E57"},
                                                          {"<?xml version=\"1.0\"?><COLLADA>", "COLLADA"},

@@ -42,6 +42,25 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
           .help = "Also allow references to files in this folder",
           .read = append_to(o.load.allow_external),
           .repeated = true},
+         {"--detail", "PX",
+          "Pixels along the diagonal of a STEP, IGES or BREP model: its triangles are at most a quarter of one from the surfaces, 1 to 1e6 "
+          "(default: by the view)",
+          [&o](const std::string& text) {
+              o.detail_given = true;
+              return assign(o.load.detail_px, parse_float(text, 1.0f, 1e6f));
+          }},
+         {.names = "--importer",
+          .form = ".EXT=PROGRAM",
+          .help = "Read files with this extension by a program that makes glTF of them",
+          .read = [&o](const std::string& text) -> Result<void> {
+              auto importer = Importer::from(text);
+              if (!importer) return tl::unexpected(importer.error());
+              o.load.importers.push_back(std::move(*importer));
+              return {};
+          },
+          .repeated = true},
+         {"--no-cache", "", "Do not keep what importers make in ~/.cache/halflit/import, and do not read it there",
+          set_to(o.import_cache, false)},
          limit_flag("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny),
          limit_flag("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny),
          limit_flag("--max-json-depth", limits.max_json_depth, "JSON nested deeper", 1000),

@@ -351,26 +351,7 @@ FlagGroup surface_flags(RenderOptions& o) {
               "Shade edges up to this angle between triangles as smooth, 0 to 180, in noisy scans up to twice the angle; for models "
               "without normals that are not glTF (default {})",
               o.load.crease_deg),
-          number(o.load.crease_deg, 0.0f, 180.0f)},
-         {"--detail", "PX",
-          "Pixels along the diagonal of a STEP, IGES or BREP model: its triangles are at most a quarter of one from the surfaces, 1 to 1e6 "
-          "(default: by the view)",
-          [&o](const std::string& text) {
-              o.detail_given = true;
-              return assign(o.load.detail_px, parse_float(text, 1.0f, 1e6f));
-          }},
-         {"--no-cache", "", "Do not keep what importers make in ~/.cache/halflit/import, and do not read it there",
-          set_to(o.import_cache, false)},
-         {.names = "--importer",
-          .form = ".EXT=PROGRAM",
-          .help = "Read files with this extension by a program that makes glTF of them",
-          .read = [&o](const std::string& text) -> Result<void> {
-              auto importer = Importer::from(text);
-              if (!importer) return tl::unexpected(importer.error());
-              o.load.importers.push_back(std::move(*importer));
-              return {};
-          },
-          .repeated = true}}};
+          number(o.load.crease_deg, 0.0f, 180.0f)}}};
 }
 
 Result<void> read_isa(std::optional<Isa>& target, const std::string& text) {
