@@ -2,11 +2,14 @@
 
 #include <BinTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_Context.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
+#include <GCPnts_TangentialDeflection.hxx>
 #include <GProp_GProps.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <IGESCAFControl_Reader.hxx>
@@ -18,6 +21,8 @@
 #include <TDF_Tool.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <XCAFApp_Application.hxx>
@@ -185,7 +190,31 @@ void face_outwards(Patch& patch, std::uint32_t first, std::size_t first_index) {
     }
 }
 
-Shape shape_of(const XCAFPrs_DocumentNode& node) {
+/// Edges that no face has, as of wire frames.
+Patch lines_of(const XCAFPrs_DocumentNode& node, double deflection) {
+    Patch lines;
+    lines.is_lines = true;
+    if (node.Style.IsSetColorCurv()) {
+        const Quantity_Color& told = node.Style.GetColorCurv();
+        lines.color = {static_cast<float>(told.Red()), static_cast<float>(told.Green()), static_cast<float>(told.Blue()), 1.0f};
+    }
+    for (TopExp_Explorer one(shape_at(node), TopAbs_EDGE, TopAbs_FACE); one.More(); one.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(one.Current());
+        if (BRep_Tool::Degenerated(edge) || !BRep_Tool::IsGeometric(edge)) continue;
+        const BRepAdaptor_Curve curve(edge);
+        if (Precision::IsInfinite(curve.FirstParameter()) || Precision::IsInfinite(curve.LastParameter())) continue;
+        const GCPnts_TangentialDeflection points(curve, kAngleRad, deflection);
+        for (int i = 1; i <= points.NbPoints(); ++i) {
+            const auto vertex = static_cast<std::uint32_t>(lines.positions.size() / 3);
+            if (i > 1) lines.indices.insert(lines.indices.end(), {vertex - 1, vertex});
+            const gp_Pnt p = points.Value(i);
+            for (int k = 1; k <= 3; ++k) lines.positions.push_back(static_cast<float>(p.Coord(k)));
+        }
+    }
+    return lines;
+}
+
+Shape shape_of(const XCAFPrs_DocumentNode& node, double deflection) {
     Shape shape{utf8_of(node.RefLabel), {}};
     if (is_made_up(shape.name)) shape.name.clear();
     TopTools_IndexedMapOfShape numbers;
@@ -222,6 +251,7 @@ Shape shape_of(const XCAFPrs_DocumentNode& node) {
         }
         face_outwards(patch, first, first_index);
     }
+    if (Patch lines = lines_of(node, deflection); !lines.indices.empty()) shape.patches.push_back(std::move(lines));
     return shape;
 }
 
@@ -262,13 +292,19 @@ Document read_document(const std::string& bytes, Format format, double pixels, b
     }
     // The box of the surfaces' poles may be much larger than that of the triangles.
     constexpr double kSame = 0.9;
+    double deflection_mm = 0.0;
     for (double loose = diagonal_of(placed), tight = 0.0;; loose = tight) {
-        const double deflection_mm = std::max(kDeflectionPx * loose / pixels, Precision::Confusion());
+        deflection_mm = std::max(kDeflectionPx * loose / pixels, Precision::Confusion());
         for (const XCAFPrs_DocumentNode& leaf : leaves) mesh(shape_at(leaf), deflection_mm);
         tight = diagonal_of(placed);
         if (tight >= kSame * loose) break;
     }
-    for (const XCAFPrs_DocumentNode& leaf : leaves) out.shapes.push_back(shape_of(leaf));
+    bool is_empty = true;
+    for (const XCAFPrs_DocumentNode& leaf : leaves) {
+        out.shapes.push_back(shape_of(leaf, deflection_mm));
+        is_empty = is_empty && out.shapes.back().patches.empty();
+    }
+    if (is_empty) throw Refused("holds no faces and no edges; parts of an assembly that lie in other files are not read");
     if (measure) out.measures = measures_of(placed);
     return out;
 }

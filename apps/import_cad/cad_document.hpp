@@ -24,12 +24,13 @@ enum class Format : std::uint8_t { step, iges, brep };
 /// By the file's first bytes; nothing: none of these.
 [[nodiscard]] std::optional<Format> find_format(std::string_view bytes);
 
-/// Triangles of one colour, of one face behind the other.
+/// Triangles of one colour, of one face behind the other, or lines of edges that no face has.
 struct Patch {
     std::optional<std::array<float, 4>> color;  ///< linear; none: the file has none
     std::vector<float> positions, normals;      ///< three each, in millimetres; normals are those of the surfaces
     std::vector<float> faces;                   ///< for each vertex the number of its face in the shape, from 0
-    std::vector<std::uint32_t> indices;         ///< three for each triangle
+    std::vector<std::uint32_t> indices;         ///< three for each triangle, two for each line
+    bool is_lines = false;                      ///< without normals and faces
 };
 
 struct Shape {

@@ -49,9 +49,13 @@ private:
         for (const Patch& patch : shape.patches) {
             if (patch.indices.empty()) continue;
             json primitive;
-            primitive["attributes"] = {{"POSITION", floats(patch.positions, "VEC3", true)},
-                                       {"NORMAL", floats(patch.normals, "VEC3", false)},
-                                       {"_FACE", floats(patch.faces, "SCALAR", false)}};
+            primitive["attributes"]["POSITION"] = floats(patch.positions, "VEC3", true);
+            if (patch.is_lines) {
+                primitive["mode"] = 1;
+            } else {
+                primitive["attributes"]["NORMAL"] = floats(patch.normals, "VEC3", false);
+                primitive["attributes"]["_FACE"] = floats(patch.faces, "SCALAR", false);
+            }
             primitive["indices"] = accessor(view(patch.indices, 34963), 5125, patch.indices.size(), "SCALAR");
             primitive["material"] = material(patch.color);
             primitives.push_back(std::move(primitive));

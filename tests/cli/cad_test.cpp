@@ -117,6 +117,22 @@ TEST_CASE("cad: triangles are within a quarter of a pixel of the surface, whose 
     }
 }
 
+TEST_CASE("cad: edges that no face has are lines", "[cli][cad]") {
+    if (!has_importer()) HALFLIT_SKIP("halflit-import-cad was not built");
+    const LoadedScene wire = load_cad(kModels + "wire.brep");  // 10 long, and a circle of radius 5
+    REQUIRE(wire.scene.meshes.size() == 1);
+    const Mesh& mesh = wire.scene.meshes[0];
+    CHECK(mesh.topology == Topology::lines);
+    double all = 0;
+    for (std::size_t i = 0; i + 1 < mesh.indices.size(); i += 2) {
+        const Vec3f a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]];
+        all += std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+    }
+    const double exact = 10 + 10 * std::acos(-1.0);
+    CHECK(all < exact + 1e-4);
+    CHECK(all > exact - 0.01);
+}
+
 TEST_CASE("cad: the fineness follows the view, and a finer one changes no pixel that is not at an outline", "[cli][cad]") {
     if (!has_importer()) HALFLIT_SKIP("halflit-import-cad was not built");
     const auto detail = [](const std::vector<std::string>& flags) { return info_of(flags)["file"]["detail_px"].get<double>(); };

@@ -66,7 +66,7 @@ struct LoadLimits {
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
 };
 
-/// A program that turns files of another format into glTF: docs/formats.md#importers.
+/// A program that turns files of another format into glTF. docs/formats.md says how it is called.
 struct Importer {
     std::string extension;  ///< of the files, with its point
     std::string program;    ///< its path; it is run with as few rights as the system can take from it
