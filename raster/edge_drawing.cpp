@@ -25,7 +25,7 @@ struct Renderer::Impl::EdgeDrawing {
 Renderer::Impl::Impl() { plan_memory.shadow_texels.emplace(); }
 Renderer::Impl::~Impl() = default;
 
-Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera& camera, const Settings& settings, const Output& output,
+Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera& camera, const Settings& settings, const Output& output, std::vector<DrawnEdge>* found,
                                         int width, int height, const Execution& execution, Isa isa) {
     if (edge_drawing == nullptr) edge_drawing = std::make_unique<EdgeDrawing>();
     EdgeDrawing& drawing = *edge_drawing;
@@ -70,6 +70,12 @@ Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera&
     hold(drawing.edges.bytes() + drawing.visible.executor.stop().memory());
     MemoryShare of_lines;
     const std::vector<EdgeLine> lines = edge_lines(drawing.edges, camera, seen, plan.written, settings, executor, of_lines);
+    for (std::size_t i = 0; found != nullptr && i < lines.size(); ++i) {
+        const EdgeLine& line = lines[i];
+        const auto x = [&](double t) { return line.x0 + (line.x1 - line.x0) * t; };
+        const auto y = [&](double t) { return line.y0 + (line.y1 - line.y0) * t; };
+        found->push_back({x(line.t0), y(line.t0), x(line.t1), y(line.t1), line.hidden});
+    }
     paint_lines(lines, settings, plan.written, output, shading::shade_kernels(isa), executor);
     return {};
 }

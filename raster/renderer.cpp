@@ -172,7 +172,7 @@ Result<RenderReport> Renderer::Impl::render(const PreparedData& scene, const Lig
     if (has_splats) splats_drawn = splats.draw(scene, plan, output, raster, target.width, target.height, executor);
     if (has_lines) {
         const Execution rest = with_time_left(execution, begun.lap() / 1000.0);
-        if (auto ok = draw_edges(scene, plan.camera, settings, output, target.width, target.height, rest, isa); !ok)
+        if (auto ok = draw_edges(scene, plan.camera, settings, output, target.edges, target.width, target.height, rest, isa); !ok)
             return tl::unexpected<Error>(ok.error());
     }
     if ((has_dome || has_lines || has_splats) && execution.on_tile)

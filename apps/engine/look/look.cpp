@@ -197,8 +197,11 @@ Result<LookResult> look(const LookOptions& given) {
         result.certificate = certificate_line(*certificate, shots.size());
     }
     if (options.sheet) {
-        auto sheet = look_sheet(job, shots, *contents, options.projection.value_or(Projection::third_angle), look_footer(job, *measures));
+        std::vector<VectorShape> shapes;
+        auto sheet = look_sheet(job, shots, *contents, options.projection.value_or(Projection::third_angle), look_footer(job, *measures),
+                                options.vectors == VectorFormat::none ? nullptr : &shapes);
         if (!sheet) return tl::unexpected(sheet.error());
+        if (options.vectors != VectorFormat::none) result.drawing = vector_file(options.vectors, shapes, sheet->width, sheet->height);
         result.sheet = std::move(*sheet);
     }
     if (!options.folder.empty()) {

@@ -3,6 +3,7 @@
 
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/look/look_sheet.hpp"
+#include "apps/engine/pictures/vector_file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,7 @@ struct LookOptions : RenderOptions {
     int certify = 0;  ///< pixels that count as seen; 0: no certificate
     int most_views = 24;
     bool sheet = true;   ///< draw the sheet
+    VectorFormat vectors = VectorFormat::none;  ///< draw it as a file of vectors too
     std::string folder;  ///< of a picture of each view; empty: none
 };
 
@@ -35,6 +37,7 @@ struct ViewPicture {
 struct LookResult {
     Json report;                        ///< the keys of docs/answers/look.txt
     std::optional<Image> sheet;         ///< none without LookOptions::sheet
+    std::string drawing;                ///< the file of LookOptions::vectors
     std::vector<ViewPicture> pictures;  ///< of each view; none without LookOptions::folder
     std::vector<std::string> inputs;    ///< files that the model refers to
     std::vector<std::string> warnings;  ///< of the scene

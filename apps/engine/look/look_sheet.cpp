@@ -3,6 +3,7 @@
 #include "apps/engine/answers/measures_json.hpp"
 #include "apps/engine/pictures/marks.hpp"
 #include "apps/engine/pictures/sheet_page.hpp"
+#include "apps/engine/pictures/vector_file.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"
 
@@ -78,8 +79,30 @@ bool is_free(const ViewShot& shot, const PixelBox& box, const PixelBox& other) {
     return true;
 }
 
-Image marked_picture(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
+/// The shot's edges as lines, those that are hidden dashed.
+std::vector<VectorShape> edge_shapes(const ViewShot& shot, const Settings& settings) {
+    std::vector<VectorShape> shapes;
+    for (const bool hidden : {true, false}) {
+        std::vector<std::pair<Point, Point>> parts;
+        for (const DrawnEdge& edge : shot.edges)
+            if (edge.hidden == hidden) parts.emplace_back(Point{edge.x0, edge.y0}, Point{edge.x1, edge.y1});
+        if (parts.empty()) continue;
+        const double width = static_cast<double>(settings.edge_width);
+        constexpr Color kHidden{0x80, 0x80, 0x80};
+        shapes.push_back({.contours = joined_lines(parts),
+                          .color = hidden ? kHidden : Color{},
+                          .stroke_width = hidden ? 0.5 * width : width,
+                          .dashed = hidden,
+                          .layer = hidden ? "hidden" : "visible"});
+    }
+    return shapes;
+}
+
+/// shapes: gets the marks; null: they are not wanted.
+Image marked_picture(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit,
+                     std::vector<VectorShape>* shapes = nullptr) {
     Canvas canvas(shot.picture);
+    canvas.record(shapes);
     const int width = shot.width(), height = shot.height();
     const PixelBox dimension = draw_dimensions(job, shot, content.box, unit, canvas);
     // The axes stand in the lower left corner, the scale in the lower right one, where they cover nothing.
@@ -108,10 +131,18 @@ ShownUnit unit_of(const RenderJob& job) {
     return shown_unit(job.source, std::max({size.x, size.y, size.z}));
 }
 
-SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit) {
+SheetCell cell_of(const RenderJob& job, const ViewShot& shot, const ViewContent& content, const ShownUnit& unit, bool as_vectors) {
     std::string note = content.edge_on ? "edge-on" : "";
     for (const std::string& fault : content.faults.names()) note += (note.empty() ? "" : ", ") + fault;
-    return {shot.name, note, marked_picture(job, shot, content, unit), {}};
+    if (!as_vectors) return {shot.name, note, marked_picture(job, shot, content, unit), {}};
+    SheetCell cell{shot.name, note, {}, {}, edge_shapes(shot, job.settings)};
+    std::vector<VectorShape> marks;
+    cell.picture = marked_picture(job, shot, content, unit, &marks);
+    for (VectorShape& mark : marks) {
+        if (mark.color == kMarks.background) mark.color = {0xff, 0xff, 0xff};  // behind texts
+        cell.shapes.push_back(std::move(mark));
+    }
+    return cell;
 }
 
 /// Place of a side in a drawing of third angle, in cells from the front: to the right and down. Whatever is on the right of the front is
@@ -171,15 +202,15 @@ Image marked_view(const RenderJob& job, const ViewShot& shot, const ViewContent&
 }
 
 Result<Image> look_sheet(const RenderJob& job, std::span<const ViewShot> shots, std::span<const ViewContent> contents,
-                         Projection projection, const std::string& footer) {
+                         Projection projection, const std::string& footer, std::vector<VectorShape>* shapes) {
     const ShownUnit unit = unit_of(job);
     std::vector<SheetCell> cells;
-    for (std::size_t i = 0; i < shots.size(); ++i) cells.push_back(cell_of(job, shots[i], contents[i], unit));
+    for (std::size_t i = 0; i < shots.size(); ++i) cells.push_back(cell_of(job, shots[i], contents[i], unit, shapes != nullptr));
     std::vector<std::string> names;
     for (const ViewShot& shot : shots) names.push_back(shot.name);
-    if (!make_drawing(names)) return lay_out(cells, 0, footer);
+    if (!make_drawing(names)) return lay_out(cells, 0, footer, shapes);
     const Drawing drawing = drawing_of(std::move(cells), projection);
-    return lay_out(drawing.cells, drawing.columns, footer);
+    return lay_out(drawing.cells, drawing.columns, footer, shapes);
 }
 
 }  // namespace halflit::engine

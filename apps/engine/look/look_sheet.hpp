@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/engine/look/part_views.hpp"
+#include "apps/engine/pictures/canvas.hpp"
 
 #include <span>
 #include <string>
@@ -22,7 +23,8 @@ enum class Projection : std::uint8_t { third_angle, first_angle };
 [[nodiscard]] bool make_drawing(std::span<const std::string> names);
 
 /// Draws dimensions, axes and scale into the shots' pictures, and lays them out: as a drawing, if they make one.
+/// shapes: gets the same with the shots' edges in place of their pictures, for a file of vectors; null: it is not wanted.
 [[nodiscard]] Result<Image> look_sheet(const RenderJob& job, std::span<const ViewShot> shots, std::span<const ViewContent> contents,
-                                       Projection projection, const std::string& footer);
+                                       Projection projection, const std::string& footer, std::vector<VectorShape>* shapes = nullptr);
 
 }  // namespace halflit::engine

@@ -18,6 +18,7 @@ Result<ViewShot> draw_shot(RenderJob& job, Renderer& renderer, std::string name,
     if (wanted.picture) {
         shot.picture.rgba8.resize(4 * pixels);
         target.pixels = shot.picture.rgba8.data();
+        target.edges = &shot.edges;
         (void)relight(job, camera);
     }
     shot.instance.resize(pixels), target.instance = shot.instance.data();

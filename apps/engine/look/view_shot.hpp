@@ -19,6 +19,7 @@ struct ViewShot {
     std::vector<std::uint32_t> triangle;  ///< number in its mesh plus 1
     std::vector<float> depth;             ///< along the view axis, units of the drawn world; infinity: nothing
     std::vector<float> normal;            ///< three a pixel, world space; 0: nothing
+    std::vector<DrawnEdge> edges;         ///< that the picture shows
     bool detail = false;                  ///< it shows a part of the model on purpose
     [[nodiscard]] int width() const { return picture.width; }
     [[nodiscard]] int height() const { return picture.height; }

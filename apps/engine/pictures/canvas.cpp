@@ -82,6 +82,7 @@ void Canvas::blend(int x, int y, Color color, unsigned alpha) {
 }
 
 void Canvas::fill(std::span<const Contour> contours, Color color) {
+    if (shapes_ != nullptr) shapes_->push_back({{contours.begin(), contours.end()}, color});
     Point low{kCanvasFarthest, kCanvasFarthest}, high{-kCanvasFarthest, -kCanvasFarthest};
     for (const Contour& contour : contours)
         for (const Point p : contour) {

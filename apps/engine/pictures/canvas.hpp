@@ -14,6 +14,7 @@ namespace halflit::engine {
 
 struct Color {
     std::uint8_t r = 0, g = 0, b = 0, a = 255;  ///< sRGB codes; alpha linear
+    friend bool operator==(const Color&, const Color&) = default;
 };
 
 using Point = Vec2<double>;
@@ -27,6 +28,15 @@ inline constexpr double kCanvasFarthest = 1 << 20;
 /// The multiple of kCanvasGrid that is nearest to x.
 [[nodiscard]] double on_canvas_grid(double x);
 
+/// A shape of a drawing that is a file of vectors (vector_file.hpp).
+struct VectorShape {
+    std::vector<Contour> contours;  ///< closed and filled, as Canvas::fill has it; or lines
+    Color color;
+    double stroke_width = 0.0;  ///< pixels, of lines; 0: it is filled
+    bool dashed = false;        ///< of lines
+    const char* layer = "marks";
+};
+
 class Canvas {
 public:
     /// Draws on a picture, which must have rgba8 of its size.
@@ -35,6 +45,9 @@ public:
 
     [[nodiscard]] const Image& image() const { return image_; }
     [[nodiscard]] Image take() { return std::move(image_); }
+
+    /// From now on, what is filled is written into a list too; null: no more.
+    void record(std::vector<VectorShape>* shapes) { shapes_ = shapes; }
 
     /// Fills what the contours enclose. A pixel's coverage is |sum over contours of turns times area|, at most 1: holes turn the other way.
     /// Time: rows times points.
@@ -56,6 +69,7 @@ private:
     void blend(int x, int y, Color color, unsigned alpha);
 
     Image image_;
+    std::vector<VectorShape>* shapes_ = nullptr;
 };
 
 }  // namespace halflit::engine

@@ -166,7 +166,7 @@ void SheetPage::add_footer(const std::string& text) {
               cut_to_width(text, kSmallTextSize, width, Cut::end), {kSmallTextSize, kNoteText});
 }
 
-Result<Image> lay_out(std::span<const SheetCell> cells, int columns, const std::string& footer) {
+Result<Image> lay_out(std::span<const SheetCell> cells, int columns, const std::string& footer, std::vector<VectorShape>* shapes) {
     SheetLayout shape{.lines = 0, .footer = !footer.empty()};
     for (const SheetCell& cell : cells) {
         shape.picture = {std::max(shape.picture.width, cell.picture.width), std::max(shape.picture.height, cell.picture.height)};
@@ -176,12 +176,25 @@ Result<Image> lay_out(std::span<const SheetCell> cells, int columns, const std::
     const auto layout = sheet_layout(shape, cells.size(), columns);
     if (!layout) return tl::unexpected(layout.error());
     SheetPage page(*layout);
+    page.record(shapes);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         page.add_title(i, cells[i].title, cells[i].note);
         page.add_picture(i, cells[i].picture, false);
         page.add_lines(i, cells[i].lines, Align::left);
     }
     page.add_footer(footer);
+    if (shapes == nullptr) return page.image();
+    for (VectorShape& text : *shapes) text.color = {};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Image& picture = cells[i].picture;
+        const Point corner{layout->x_of(i) + (layout->picture.width - picture.width) / 2.0,
+                           layout->y_of(i) + (layout->picture.height - picture.height) / 2.0};
+        for (VectorShape moved : cells[i].shapes) {
+            for (Contour& contour : moved.contours)
+                for (Point& p : contour) p = p + corner;
+            shapes->push_back(std::move(moved));
+        }
+    }
     return page.image();
 }
 

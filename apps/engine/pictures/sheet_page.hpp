@@ -61,6 +61,9 @@ public:
     void add_lines(std::size_t cell, const std::vector<std::string>& lines, Align align);
     void add_footer(const std::string& text);
 
+    /// From now on, texts are written into a list too, in black; null: no more.
+    void record(std::vector<VectorShape>* shapes) { canvas_.record(shapes); }
+
     [[nodiscard]] const Image& image() const { return canvas_.image(); }
 
 private:
@@ -71,9 +74,12 @@ private:
 struct SheetCell {
     std::string title, note;  ///< above the picture, on the left and on the right; of all cells or of none
     Image picture;
-    std::vector<std::string> lines;  ///< below it
+    std::vector<std::string> lines;      ///< below it
+    std::vector<VectorShape> shapes{};   ///< what the picture shows, in its pixels
 };
-/// A page of cells. All have the size of the largest picture and the most lines. columns 0: chosen, as by sheet_layout.
-[[nodiscard]] Result<Image> lay_out(std::span<const SheetCell> cells, int columns, const std::string& footer);
+/// A page of cells. All have the size of the largest picture and the most lines. columns 0: chosen, as by sheet_layout. shapes: gets those
+/// of the cells and the texts, in pixels of the page, for black on white; null: they are not wanted.
+[[nodiscard]] Result<Image> lay_out(std::span<const SheetCell> cells, int columns, const std::string& footer,
+                                    std::vector<VectorShape>* shapes = nullptr);
 
 }  // namespace halflit::engine

@@ -59,9 +59,12 @@ Result<int> look_and_write(const LookFiles& options) {
     if (!result->pictures.empty())
         if (const auto written = write_pictures(options, result->pictures); !written) return tl::unexpected(written.error());
     if (result->sheet) {
-        const auto format = output_format_of(options.output);
-        if (!format) return tl::unexpected(format.error());
-        const auto bytes = encode_image(*result->sheet, *format);
+        Result<std::vector<std::uint8_t>> bytes = std::vector<std::uint8_t>(result->drawing.begin(), result->drawing.end());
+        if (options.vectors == VectorFormat::none) {
+            const auto format = output_format_of(options.output);
+            if (!format) return tl::unexpected(format.error());
+            bytes = encode_image(*result->sheet, *format);
+        }
         if (!bytes) return tl::unexpected(bytes.error());
         if (const auto written = io::write_file(options.output, *bytes); !written) return tl::unexpected(written.error());
         if (options.output != "-") print_note(fmt::format("wrote {}, {}x{}", options.output, result->sheet->width, result->sheet->height));
@@ -87,6 +90,7 @@ Result<int> run_look(LookFiles options) {
     }
     if (options.max_memory_bytes == 0) platform::prepare_heap();
     options.sheet = !options.output.empty();
+    options.vectors = vector_format_of(options.output);
     return within_time(options.timeout_s, [&] { return look_and_write(options); });
 }
 
@@ -98,8 +102,9 @@ Command look_command() {
     auto groups = look_flags(o);
     std::vector<Flag>& sheet = groups.front().flags;
     sheet.insert(sheet.begin(), {{"-o,--output", "FILE|FOLDER/",
-                                  "The sheet, a picture of all views: a .png, .jpg, .bmp, .tga or .webp file; - for PNG on standard output "
-                                  "(default: SCENE's name.look.png). A folder: a PNG file of each view instead",
+                                  "The sheet, a picture of all views: a .png, .jpg, .bmp, .tga or .webp file; a .svg or .pdf file with the "
+                                  "edges as lines; - for PNG on standard output (default: SCENE's name.look.png). A folder: a PNG file "
+                                  "of each view instead",
                                   read_text(o.output)},
                                  {"--json", "FILE|-",
                                   "Write a report as JSON: cameras, and what each view shows of each part; without -o, no sheet is drawn",

@@ -14,6 +14,13 @@ namespace halflit {
 /// Order of the four bytes of a pixel in Target::pixels.
 enum class PixelFormat : std::uint8_t { rgba8, bgra8 };
 
+/// A part of a model's edge that a picture with Settings::edges shows, from end to end. Pixels, x right and y down; (0, 0) is the upper left
+/// corner of the whole picture.
+struct DrawnEdge {
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool hidden = false;  ///< a surface lies before it
+};
+
 /// The caller's memory for a picture: 8-bit codes, linear light before the tone curve, or both, and planes of what was seen. A null
 /// pointer: that output is not made; where neither codes nor light are, nothing is shaded and no shadow map is drawn. Row 0 is the top row.
 /// The row at y begins at the pointer plus y times the stride in bytes. A stride may be larger than a row, for padding; what lies between
@@ -61,6 +68,9 @@ struct Target {
     float* barycentric = nullptr;
     float* uv = nullptr;  ///< two floats: Mesh::uv0 by these weights, before a texture's own transform; 0 where the mesh has none
     std::size_t barycentric_row_bytes = 0, uv_row_bytes = 0;  ///< strides of these planes
+
+    /// Edges that lie in the pixels that are drawn are appended, where `pixels` or `linear` shows them too (Settings::edges).
+    std::vector<DrawnEdge>* edges = nullptr;
 };
 
 /// Width and height of a picture in pixels.
