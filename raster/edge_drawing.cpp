@@ -25,8 +25,8 @@ struct Renderer::Impl::EdgeDrawing {
 Renderer::Impl::Impl() { plan_memory.shadow_texels.emplace(); }
 Renderer::Impl::~Impl() = default;
 
-Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera& camera, const Settings& settings, const Output& output, std::vector<DrawnEdge>* found,
-                                        int width, int height, const Execution& execution, Isa isa) {
+Result<void> Renderer::Impl::draw_edges(const PreparedData& scene, const Camera& camera, const Settings& settings, const Output& output,
+                                        std::vector<DrawnEdge>* found, int width, int height, const Execution& execution, Isa isa) {
     if (edge_drawing == nullptr) edge_drawing = std::make_unique<EdgeDrawing>();
     EdgeDrawing& drawing = *edge_drawing;
     const Region part = seen_region(plan.written, static_cast<double>(settings.edge_width), width, height);

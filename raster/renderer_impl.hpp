@@ -53,8 +53,8 @@ struct Renderer::Impl {
     /// Draws what is seen through glass that blurs or bends light, the first half of the progress.
     raster::TileCounts draw_behind(const raster::PicturePass& pass, const Settings& settings, const Execution& execution);
     /// Paints Settings::edges over the finished picture.
-    Result<void> draw_edges(const raster::PreparedData& scene, const Camera& camera, const Settings& settings, const raster::Output& output, std::vector<DrawnEdge>* found,
-                            int width, int height, const Execution& execution, Isa isa);
+    Result<void> draw_edges(const raster::PreparedData& scene, const Camera& camera, const Settings& settings, const raster::Output& output,
+                            std::vector<DrawnEdge>* found, int width, int height, const Execution& execution, Isa isa);
     /// begun: the progress before.
     raster::TileCounts draw_tiles(const raster::PicturePass& pass, const Execution& execution, double begun);
 

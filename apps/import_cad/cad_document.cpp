@@ -4,8 +4,11 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepGProp.hxx>
+#include <BRepLProp_SLProps.hxx>
 #include <BRepMesh_Context.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
@@ -13,6 +16,8 @@
 #include <GProp_GProps.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <IGESCAFControl_Reader.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
 #include <RWMesh_FaceIterator.hxx>
 #include <Standard_ArrayStreamBuffer.hxx>
@@ -23,12 +28,16 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XCAFPrs_DocumentExplorer.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +48,7 @@
 namespace halflit::cad {
 namespace {
 
-/// Largest angle between normals of neighbouring vertices. Normals between them are off by its third power: 3e-4, which changes light by
-/// less than a tenth of a code.
+/// Largest angle between the normals of neighbouring vertices. On spheres, cylinders and cones normals between them are exact.
 constexpr double kAngleRad = 0.2;
 /// A quarter of a pixel, less what the mesher exceeds it by (5 %), and what the box may be too large by (a ninth).
 constexpr double kDeflectionPx = 0.21;
@@ -69,16 +77,33 @@ TopoDS_Shape read_brep(const std::string& bytes) try {
     throw Refused("cannot be read to its end, or is not well-formed");
 }
 
+/// A warning for entities that are damaged, or of which no shape can be made.
+void warn_of_faults(const Handle(XSControl_WorkSession) & session, std::vector<std::string>& warnings) {
+    int count = 0;
+    std::string first;
+    const auto add = [&](Interface_CheckIterator faults) {
+        for (; faults.More(); faults.Next()) {
+            if (!faults.Value()->HasFailed()) continue;
+            if (count++ == 0) first = std::to_string(faults.Number()) + ": " + faults.Value()->CFail(1);
+        }
+    };
+    add(session->ModelCheckList(false));
+    add(session->TransferReader()->TransientProcess()->CheckList(true));
+    if (count > 0) warnings.push_back(std::to_string(count) + " entities cannot be read, the first is number " + first);
+}
+
 template <class Reader>
-void transfer(Reader& reader, Handle(TDocStd_Document) & document, IFSelect_ReturnStatus read) {
+void transfer(Reader& reader, const Handle(XSControl_WorkSession) & session, Handle(TDocStd_Document) & document,
+              IFSelect_ReturnStatus read, std::vector<std::string>& warnings) {
     if (read != IFSelect_RetDone) throw Refused("cannot be read to its end, or is not well-formed");
     reader.SetColorMode(true);
     reader.SetNameMode(true);
     reader.SetLayerMode(false);
     if (!reader.Transfer(document)) throw Refused("holds no shape that can be read");
+    warn_of_faults(session, warnings);
 }
 
-Handle(TDocStd_Document) read_shapes(const std::string& bytes, Format format) {
+Handle(TDocStd_Document) read_shapes(const std::string& bytes, Format format, std::vector<std::string>& warnings) {
     Handle(TDocStd_Document) document;
     XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
     if (format == Format::step) {
@@ -86,11 +111,13 @@ Handle(TDocStd_Document) read_shapes(const std::string& bytes, Format format) {
         Interface_Static::SetCVal("xstep.cascade.unit", "MM");
         Standard_ArrayStreamBuffer buffer(bytes.data(), bytes.size());
         std::istream stream(&buffer);
-        transfer(reader, document, reader.ChangeReader().ReadStream("model", stream));
+        const IFSelect_ReturnStatus read = reader.ChangeReader().ReadStream("model", stream);
+        transfer(reader, reader.ChangeReader().WS(), document, read, warnings);
     } else if (format == Format::iges) {
         IGESCAFControl_Reader reader;
         Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-        transfer(reader, document, reader.ReadFile(kStandardInput));
+        const IFSelect_ReturnStatus read = reader.ReadFile(kStandardInput);
+        transfer(reader, reader.WS(), document, read, warnings);
     } else {
         XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(read_brep(bytes), false);
     }
@@ -107,66 +134,109 @@ std::string utf8_of(const TDF_Label& label) {
     return text;
 }
 
-/// Names that programs give to parts and shapes without one: numbers, kinds of shapes.
-bool is_made_up(std::string name) {
-    if (name.rfind("NAUO", 0) == 0) name.erase(0, 4);
-    if (name.find_first_not_of("0123456789") == std::string::npos) return true;
-    static constexpr const char* kKinds[] = {"COMPOUND", "COMPSOLID", "SOLID", "SHELL",    "FACE", "WIRE",
-                                             "EDGE",     "VERTEX",    "SHAPE", "ASSEMBLY", "=>"};
-    return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const char* kind) { return name.rfind(kind, 0) == 0; }) &&
-           name.find_first_of(" _") == std::string::npos;
+bool is_number(std::string_view text) { return text.find_first_not_of("0123456789") == std::string_view::npos; }
+
+/// The names of kinds that programs give to shapes without one, with or without a number.
+bool is_made_up(std::string_view name) {
+    static constexpr std::string_view kKinds[] = {"COMPOUND", "COMPSOLID", "SOLID", "SHELL", "FACE",    "WIRE",
+                                                  "EDGE",     "VERTEX",    "SHAPE", "NAUO",  "ASSEMBLY"};
+    return name.empty() || name.substr(0, 2) == "=>" || std::any_of(std::begin(kKinds), std::end(kKinds), [&](std::string_view kind) {
+               return name.substr(0, kind.size()) == kind && is_number(name.substr(kind.size()));
+           });
 }
 
+/// That of its place in the assembly, which may be a mere number, or of its part.
 std::string name_of(const XCAFPrs_DocumentNode& node) {
-    for (const TDF_Label& label : {node.Label, node.RefLabel})
-        if (std::string name = utf8_of(label); !name.empty() && !is_made_up(name)) return name;
-    return {};
+    const std::string own = utf8_of(node.Label), part = utf8_of(node.RefLabel);
+    if (!is_made_up(own) && (!is_number(own) || is_made_up(part))) return own;
+    return is_made_up(part) ? std::string() : part;
 }
 
-void mesh(const TopoDS_Shape& shape, double deflection) {
+IMeshTools_Parameters mesh_parameters(double deflection) {
     IMeshTools_Parameters parameters;
     parameters.Deflection = deflection;
     parameters.Angle = kAngleRad;
-    BRepMesh_IncrementalMesh mesher;
-    mesher.SetShape(shape);
-    mesher.ChangeParameters() = parameters;
-    // The other algorithm's time grows by the square of a face's vertices.
-    mesher.Perform(new BRepMesh_Context(IMeshTools_MeshAlgoType_Delabella));
+    return parameters;
 }
 
-/// Diagonal of the box of all triangles that the nodes place.
+bool has_triangles(const TopoDS_Face& face) {
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, location);
+    return !triangles.IsNull() && triangles->NbTriangles() > 0;
+}
+
+/// Gives a face the triangles of its surface as NURBS, for faces that the mesher fails at, such as some cones. False: it fails again.
+bool mesh_as_nurbs(const TopoDS_Face& face, double deflection) {
+    const TopoDS_Shape converted = BRepBuilderAPI_NurbsConvert(face, true).Shape();
+    BRepMesh_IncrementalMesh(converted, mesh_parameters(deflection));
+    TopExp_Explorer one(converted, TopAbs_FACE);
+    if (!one.More() || !has_triangles(TopoDS::Face(one.Current()))) return false;
+    const TopoDS_Face& made = TopoDS::Face(one.Current());
+    TopLoc_Location there, here;
+    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(made, there)->Copy();
+    (void)BRep_Tool::Surface(face, here);
+    const gp_Trsf move = here.Transformation().Inverted() * there.Transformation();
+    triangles->AddNormals();
+    BRepAdaptor_Surface surface(made, false);
+    for (int i = 1; i <= triangles->NbNodes(); ++i) {
+        const gp_Pnt2d uv = triangles->UVNode(i);
+        BRepLProp_SLProps at(surface, uv.X(), uv.Y(), 2, Precision::Confusion());
+        const gp_Dir normal = at.IsNormalDefined() ? at.Normal() : gp_Dir(0, 0, 1);
+        triangles->SetNormal(i, normal.Transformed(here.Transformation().Inverted()));
+        triangles->SetNode(i, triangles->Node(i).Transformed(move));
+    }
+    BRep_Builder().UpdateFace(face, triangles);
+    return true;
+}
+
+/// False: faces lack triangles.
+bool mesh(const TopoDS_Shape& shape, double deflection) {
+    BRepMesh_IncrementalMesh mesher;
+    mesher.SetShape(shape);
+    mesher.ChangeParameters() = mesh_parameters(deflection);
+    // The time of the usual algorithm grows by the square of a face's vertices.
+    mesher.Perform(new BRepMesh_Context(IMeshTools_MeshAlgoType_Delabella));
+    bool is_whole = true;
+    for (TopExp_Explorer one(shape, TopAbs_FACE); one.More(); one.Next())
+        if (const TopoDS_Face& face = TopoDS::Face(one.Current()); !has_triangles(face))
+            is_whole = mesh_as_nurbs(face, deflection) && is_whole;
+    return is_whole;
+}
+
+/// Diagonal of the box of all triangles, or of surfaces that have none yet.
 double diagonal_of(const std::vector<std::pair<TopoDS_Shape, TopLoc_Location>>& placed) {
     Bnd_Box box;
     for (const auto& [shape, location] : placed) {
         Bnd_Box one;
-        BRepBndLib::Add(shape, one);
-        if (one.IsVoid() || one.IsOpen()) continue;
-        box.Add(one.Transformed(location.Transformation()));
+        BRepBndLib::Add(shape.Moved(location, false), one);
+        if (!one.IsVoid() && !one.IsOpen()) box.Add(one);
     }
     return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
 }
 
-std::array<double, 8> measures_of(const std::vector<std::pair<TopoDS_Shape, TopLoc_Location>>& placed) {
+/// Area and volume of a shape.
+Measures measures_of(const TopoDS_Shape& shape) {
     constexpr double kRelativeError = 1e-6;
-    Bnd_Box box;
-    double area = 0, volume = 0;
-    for (const auto& [shape, location] : placed) {
-        const TopoDS_Shape there = shape.Moved(location);
-        BRepBndLib::AddOptimal(there, box, false, false);
-        GProp_GProps surface;
-        BRepGProp::SurfaceProperties(there, surface, kRelativeError);
-        area += surface.Mass();
-        for (TopExp_Explorer one(there, TopAbs_SOLID); one.More(); one.Next()) {
-            GProp_GProps solid;
-            BRepGProp::VolumeProperties(one.Current(), solid, kRelativeError);
-            volume += solid.Mass();
-        }
+    Measures found{};
+    GProp_GProps surface;
+    BRepGProp::SurfaceProperties(shape, surface, kRelativeError);
+    found.area = surface.Mass();
+    for (TopExp_Explorer one(shape, TopAbs_SOLID); one.More(); one.Next(), ++found.solids) {
+        GProp_GProps solid;
+        BRepGProp::VolumeProperties(one.Current(), solid, kRelativeError);
+        found.volume += solid.Mass();
     }
-    std::array<double, 8> m{0, 0, 0, 0, 0, 0, area, volume};
-    if (!box.IsVoid()) box.Get(m[0], m[1], m[2], m[3], m[4], m[5]);
+    return found;
+}
+
+void set_box(const TopoDS_Shape& placed, Measures& measures) {
+    Bnd_Box box;
+    BRepBndLib::AddOptimal(placed, box, false, false);
+    if (box.IsVoid()) return;
+    std::array<double, 6>& m = measures.box;
+    box.Get(m[0], m[1], m[2], m[3], m[4], m[5]);
     for (double& x : m)
         if (std::abs(x) <= Precision::Confusion()) x = 0;
-    return m;
 }
 
 TopoDS_Shape shape_at(const XCAFPrs_DocumentNode& node) { return XCAFDoc_ShapeTool::GetShape(node.RefLabel); }
@@ -214,25 +284,26 @@ Patch lines_of(const XCAFPrs_DocumentNode& node, double deflection) {
     return lines;
 }
 
-Shape shape_of(const XCAFPrs_DocumentNode& node, double deflection) {
+constexpr std::array<float, 4> kNoColor = {-1, -1, -1, -1};
+
+std::array<float, 4> linear_of(const Quantity_ColorRGBA& color) {
+    const Quantity_Color& rgb = color.GetRGB();
+    return {static_cast<float>(rgb.Red()), static_cast<float>(rgb.Green()), static_cast<float>(rgb.Blue()), color.Alpha()};
+}
+
+Shape shape_of(const XCAFPrs_DocumentNode& node) {
     Shape shape{utf8_of(node.RefLabel), {}};
     if (is_made_up(shape.name)) shape.name.clear();
     TopTools_IndexedMapOfShape numbers;
     TopExp::MapShapes(shape_at(node), TopAbs_FACE, numbers);
     std::map<std::array<float, 4>, std::size_t> patch_of_color;
-    constexpr std::array<float, 4> kNone = {-1, -1, -1, -1};
     for (RWMesh_FaceIterator face(node.RefLabel, TopLoc_Location(), true, node.Style); face.More(); face.Next()) {
         if (face.IsEmptyMesh() || !face.FaceStyle().IsVisible()) continue;
-        std::array<float, 4> color = kNone;
-        if (face.HasFaceColor()) {
-            const Quantity_ColorRGBA& told = face.FaceColor();
-            color = {static_cast<float>(told.GetRGB().Red()), static_cast<float>(told.GetRGB().Green()),
-                     static_cast<float>(told.GetRGB().Blue()), told.Alpha()};
-        }
+        const std::array<float, 4> color = face.HasFaceColor() ? linear_of(face.FaceColor()) : kNoColor;
         const auto [found, is_new] = patch_of_color.try_emplace(color, shape.patches.size());
         if (is_new) shape.patches.emplace_back();
         Patch& patch = shape.patches[found->second];
-        if (color != kNone) patch.color = color;
+        if (color != kNoColor) patch.color = color;
         const auto first = static_cast<std::uint32_t>(patch.positions.size() / 3);
         const auto number = static_cast<float>(numbers.FindIndex(face.Face()) - 1);
         for (int i = face.NodeLower(); i <= face.NodeUpper(); ++i) {
@@ -251,7 +322,6 @@ Shape shape_of(const XCAFPrs_DocumentNode& node, double deflection) {
         }
         face_outwards(patch, first, first_index);
     }
-    if (Patch lines = lines_of(node, deflection); !lines.indices.empty()) shape.patches.push_back(std::move(lines));
     return shape;
 }
 
@@ -265,11 +335,12 @@ std::optional<Format> find_format(std::string_view bytes) {
 }
 
 Document read_document(const std::string& bytes, Format format, double pixels, bool measure) {
-    const Handle(TDocStd_Document) document = read_shapes(bytes, format);
     Document out;
+    const Handle(TDocStd_Document) document = read_shapes(bytes, format, out.warnings);
     std::vector<XCAFPrs_DocumentNode> leaves;  // of out.shapes
     std::vector<std::pair<TopoDS_Shape, TopLoc_Location>> placed;
-    std::map<std::string, int> shape_of_key;
+    std::vector<int> placed_nodes;
+    std::map<std::pair<std::string, std::array<float, 4>>, int> shape_of_key;
     std::vector<int> above;  // node of each depth
     for (XCAFPrs_DocumentExplorer walk(document, XCAFPrs_DocumentExplorerFlags_None); walk.More(); walk.Next()) {
         const XCAFPrs_DocumentNode& node = walk.Current();
@@ -279,33 +350,52 @@ Document read_document(const std::string& bytes, Format format, double pixels, b
         if (!node.Style.IsVisible() && !node.IsAssembly) continue;
         above.push_back(static_cast<int>(out.nodes.size()));
         if (!node.IsAssembly) {
+            if (made.name.empty() && made.parent >= 0) made.name = out.nodes[static_cast<std::size_t>(made.parent)].name;
             TCollection_AsciiString entry;
             TDF_Tool::Entry(node.RefLabel, entry);
-            std::string key = entry.ToCString();
-            if (node.Style.IsSetColorSurf()) key += ' ' + std::to_string(XCAFPrs_Style::HashCode(node.Style, INT_MAX));
-            const auto [found, is_new] = shape_of_key.try_emplace(std::move(key), static_cast<int>(leaves.size()));
+            const std::array<float, 4> color = node.Style.IsSetColorSurf() ? linear_of(node.Style.GetColorSurfRGBA()) : kNoColor;
+            const auto [found, is_new] = shape_of_key.try_emplace({entry.ToCString(), color}, static_cast<int>(leaves.size()));
             if (is_new) leaves.push_back(node);
             made.shape = found->second;
             placed.emplace_back(shape_at(node), node.Location);
+            placed_nodes.push_back(static_cast<int>(out.nodes.size()));
         }
         out.nodes.push_back(std::move(made));
     }
-    // The box of the surfaces' poles may be much larger than that of the triangles.
+    // The box of the surfaces' poles may be much larger than that of the triangles. A power of the square root of 2, so that a part that is
+    // added seldom changes the triangles of the others.
     constexpr double kSame = 0.9;
     double deflection_mm = 0.0;
+    bool is_whole = true;
     for (double loose = diagonal_of(placed), tight = 0.0;; loose = tight) {
-        deflection_mm = std::max(kDeflectionPx * loose / pixels, Precision::Confusion());
-        for (const XCAFPrs_DocumentNode& leaf : leaves) mesh(shape_at(leaf), deflection_mm);
+        const double most = std::max(kDeflectionPx * loose / pixels, Precision::Confusion());
+        deflection_mm = std::ldexp(1.0, std::ilogb(most));
+        if (deflection_mm * M_SQRT2 <= most) deflection_mm *= M_SQRT2;
+        is_whole = true;
+        for (const XCAFPrs_DocumentNode& leaf : leaves) is_whole = mesh(shape_at(leaf), deflection_mm) && is_whole;
         tight = diagonal_of(placed);
         if (tight >= kSame * loose) break;
     }
+    if (!is_whole) out.warnings.emplace_back("faces are left out of which no triangles can be made");
     bool is_empty = true;
     for (const XCAFPrs_DocumentNode& leaf : leaves) {
-        out.shapes.push_back(shape_of(leaf, deflection_mm));
+        out.shapes.push_back(shape_of(leaf));
         is_empty = is_empty && out.shapes.back().patches.empty();
     }
-    if (is_empty) throw Refused("holds no faces and no edges; parts of an assembly that lie in other files are not read");
-    if (measure) out.measures = measures_of(placed);
+    for (std::size_t i = 0; is_empty && i < leaves.size(); ++i)  // lines beside faces are axes and other helps
+        if (Patch lines = lines_of(leaves[i], deflection_mm); !lines.indices.empty()) out.shapes[i].patches.push_back(std::move(lines));
+    if (std::all_of(out.shapes.begin(), out.shapes.end(), [](const Shape& shape) { return shape.patches.empty(); }))
+        throw Refused("holds no faces and no edges; parts of an assembly that lie in other files are not read");
+    if (!measure) return out;
+    std::vector<Measures> of_leaf;
+    for (const XCAFPrs_DocumentNode& leaf : leaves) of_leaf.push_back(measures_of(shape_at(leaf)));
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const auto node = static_cast<std::size_t>(placed_nodes[i]);
+        Measures there = of_leaf[static_cast<std::size_t>(out.nodes[node].shape)];
+        there.node = placed_nodes[i];
+        set_box(placed[i].first.Moved(placed[i].second, false), there);
+        out.measures.push_back(there);
+    }
     return out;
 }
 

@@ -45,10 +45,19 @@ struct Node {
     TopLoc_Location parent_from_node;
 };
 
+/// Of one node that has a shape, where it is placed.
+struct Measures {
+    int node;                     ///< index into Document::nodes
+    std::array<double, 6> box;    ///< least and largest corner, millimetres
+    double area = 0, volume = 0;  ///< of its faces and of its solids, square and cubic millimetres
+    int solids = 0;
+};
+
 struct Document {
     std::vector<Node> nodes;
-    std::vector<Shape> shapes;                      ///< each once, whatever the number of its nodes
-    std::optional<std::array<double, 8>> measures;  ///< corners of the box, area, volume; millimetres
+    std::vector<Shape> shapes;          ///< each once, whatever the number of its nodes
+    std::vector<Measures> measures;     ///< if they were asked for
+    std::vector<std::string> warnings;  ///< what the file has and the document lacks, one line each
 };
 
 /// The file's shapes, as triangles so fine that none is farther from its surface than a quarter of a pixel where the diagonal of the

@@ -37,7 +37,12 @@ public:
     static std::string write(const Document& document) {
         GlbWriter writer;
         writer.json_["asset"] = {{"version", "2.0"}, {"generator", "halflit-import-cad"}};
-        if (document.measures) writer.json_["asset"]["extras"]["halflit"]["measures"] = *document.measures;
+        json& told = writer.json_["asset"]["extras"]["halflit"];
+        for (const Measures& m : document.measures)
+            for (const double x :
+                 {double(m.node), m.box[0], m.box[1], m.box[2], m.box[3], m.box[4], m.box[5], m.area, m.volume, double(m.solids)})
+                told["measures"].push_back(x);
+        told["warnings"] = document.warnings;
         for (const Shape& shape : document.shapes) writer.add(shape);
         writer.add_nodes(document);
         return writer.file();
@@ -77,9 +82,17 @@ private:
             if (!node.parent_from_node.IsIdentity()) {
                 const gp_Trsf t = node.parent_from_node.Transformation();
                 json matrix = json::array();
+                bool is_finite = true;
                 for (int column = 1; column <= 4; ++column)
-                    for (int row = 1; row <= 4; ++row) matrix.push_back(row == 4 ? (column == 4 ? 1.0 : 0.0) : t.Value(row, column));
-                made["matrix"] = std::move(matrix);
+                    for (int row = 1; row <= 4; ++row) {
+                        matrix.push_back(row == 4 ? (column == 4 ? 1.0 : 0.0) : t.Value(row, column));
+                        is_finite = is_finite && std::isfinite(matrix.back().get<double>());
+                    }
+                if (is_finite) {
+                    made["matrix"] = std::move(matrix);
+                } else {
+                    json_["asset"]["extras"]["halflit"]["warnings"].push_back("a part's place is not finite, it is drawn at the origin");
+                }
             }
             if (node.parent < 0) {
                 roots.push_back(nodes.size());

@@ -180,7 +180,7 @@ TEST_CASE("cad: what cannot be read is refused with a reason", "[cli][cad]") {
     };
     const std::string machine = contents(kMachine);
     if (!has_importer()) {
-        CHECK(contains(refused(machine, "x.step"), "is STEP, which is not read; the program halflit-import-cad reads it, and is not here"));
+        CHECK(contains(refused(machine, "x.step"), "is STEP, which is not read; halflit-import-cad, of the package halflit-cad, reads it"));
         return;
     }
     CHECK(contains(refused(machine.substr(0, machine.size() / 2), "x.step"), "halflit-import-cad: cannot be read to its end"));

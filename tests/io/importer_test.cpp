@@ -123,6 +123,9 @@ TEST_CASE("importer: time, processor time, memory and output are limited, and a 
     small.limits.max_file_bytes = 10'000'000;
     CHECK(error_of("flood", small).code == ErrorCode::limit);
     CHECK_THAT(error_of("flood", small).message, Contains("made more than 10000000 bytes"));
+    begin = Clock::now();
+    CHECK(error_of("closes", short_time).code == ErrorCode::limit);  // its streams, and lives on
+    CHECK(seconds_since(begin) < 5);
     CHECK(error_of("memory").code == ErrorCode::limit);
     CHECK_THAT(error_of("memory").message, Contains("took "));
 }
@@ -132,8 +135,10 @@ TEST_CASE("importer: it cannot write, remove, connect, start processes, or read 
     folder.write("secret", "x");
     const std::string file = folder.file("secret"), other = folder.file("other");
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__))
+    const std::string self = std::to_string(::getpid());
     for (const std::string& order : {"writes " + other, "writes " + file, "removes " + file, "renames " + file, "makes " + other,
-                                     "kills " + std::to_string(::getpid()), std::string("socket"), std::string("forks")}) {
+                                     "kills " + self, "thread-kills " + self, "queues " + self, "limits " + self, "changes " + file,
+                                     std::string("outlives"), std::string("socket"), std::string("forks")}) {
         INFO(order);
         CHECK_THAT(error_of(order).message, Contains(": refused"));
     }
@@ -178,9 +183,10 @@ TEST_CASE("importer: what it made is kept by the file's bytes and the fineness, 
     CHECK(load(nothing));
     CHECK(load(nothing));
     CHECK(glbs().size() == 1);
-    // What is read again is the kept file.
+    // What was changed there is made again.
     for (const std::string& path : glbs()) std::ofstream(path) << "{";
-    CHECK(!load(nothing));
+    CHECK(load(nothing));
+    for (const std::string& path : glbs()) CHECK(std::filesystem::file_size(path) == nothing.size() + 32);
     options.detail_px = 4096;
     CHECK(load(nothing));
     CHECK(load(nothing + " "));

@@ -12,6 +12,11 @@
 #include <vector>
 
 #include <fcntl.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#endif
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -89,11 +94,25 @@ int main(int argc, char** argv) {
         if (child == 0) ::_exit(0);
         return says(child < 0 ? "refused" : "allowed", 3);
     }
-    if (what == "starts") {
-        const pid_t child = ::fork();  // is left behind where forks are allowed
-        if (child == 0) std::this_thread::sleep_for(std::chrono::hours(1));
-        return says("done", 3);
+    if (what == "closes") {
+        ::close(1), ::close(2);
+        std::this_thread::sleep_for(std::chrono::hours(1));
     }
+#ifdef __linux__
+    if (what == "thread-kills")
+        return says(::syscall(SYS_tgkill, std::atoi(value.c_str()), std::atoi(value.c_str()), 0) == 0 ? "allowed" : "refused", 3);
+    if (what == "queues") {
+        siginfo_t info{};
+        info.si_code = SI_QUEUE;
+        return says(::syscall(SYS_rt_sigqueueinfo, std::atoi(value.c_str()), 0, &info) == 0 ? "allowed" : "refused", 3);
+    }
+    if (what == "limits") {
+        struct rlimit none {};
+        return says(::syscall(SYS_prlimit64, std::atoi(value.c_str()), RLIMIT_FSIZE, nullptr, &none) == 0 ? "allowed" : "refused", 3);
+    }
+    if (what == "changes") return says(::syscall(452 /* fchmodat2 */, AT_FDCWD, value.c_str(), 0600, 0) == 0 ? "allowed" : "refused", 3);
+    if (what == "outlives") return says(::prctl(PR_SET_PDEATHSIG, 0) == 0 ? "allowed" : "refused", 3);
+#endif
     if (what == "thread") {
         int x = 0;
         std::thread([&] { x = 1; }).join();

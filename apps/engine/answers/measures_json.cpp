@@ -2,7 +2,6 @@
 
 #include "halflit/measures.hpp"
 #include "sh/time_limit.hpp"
-#include "sh/vec3d.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -44,19 +46,50 @@ bool is_soon_measured(const Scene& scene) {
     return drawn <= std::max(kMostTriangles, 2 * stored);
 }
 
-/// Largest distance of triangles from the surfaces that they were made of, in the file's unit; nothing: they are the file's own.
-std::optional<double> tolerance_of(const SceneSource& source) {
-    if (!source.file || !source.file->exact) return std::nullopt;
-    constexpr double kShareOfPixel = 0.25;
-    return kShareOfPixel * length(source.file->exact->max - source.file->exact->min) / source.file->detail_px;
+FileBox in_file(const Placement& placement, Vec3d min, Vec3d max) {
+    // Quarter turns may exchange the ends of an axis.
+    const Vec3d a = placement.out(min), b = placement.out(max);
+    return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}, {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
+}
+
+/// Of the surfaces that a file's exact nodes have.
+struct ExactSum {
+    Vec3d min{1e300, 1e300, 1e300}, max{-1e300, -1e300, -1e300};
+    double area = 0, volume = 0;
+    bool has_volume = false;
+};
+void add(ExactSum& sum, const ExactMeasures& one) {
+    sum.min = {std::min(sum.min.x, one.min.x), std::min(sum.min.y, one.min.y), std::min(sum.min.z, one.min.z)};
+    sum.max = {std::max(sum.max.x, one.max.x), std::max(sum.max.y, one.max.y), std::max(sum.max.z, one.max.z)};
+    sum.area += one.area;
+    sum.volume += one.volume;
+    sum.has_volume = sum.has_volume || one.solids > 0;
+}
+
+/// Of these parts; nothing: the file has no exact surfaces, or they are cut.
+std::optional<ExactSum> exact_sum(const RenderJob& job, const std::function<bool(const Part&)>& counts) {
+    if (!job.source.file || job.source.file->exact.empty() || !job.sections.cuts.empty()) return std::nullopt;
+    std::set<int> nodes;
+    for (const Part& part : job.source.parts->list())
+        if (counts(part)) nodes.insert(part.node);
+    std::optional<ExactSum> sum;
+    for (const ExactMeasures& one : job.source.file->exact)
+        if (nodes.contains(one.node)) add(sum ? *sum : sum.emplace(), one);
+    return sum;
+}
+std::optional<ExactSum> drawn_sum(const RenderJob& job) {
+    const auto is_drawn = [&](int instance) { return job.scene().instances[static_cast<std::size_t>(instance)].visible; };
+    return exact_sum(job, [&](const Part& part) { return std::any_of(part.instances.begin(), part.instances.end(), is_drawn); });
 }
 
 /// All measures but for the list of bodies, in the file's unit and along its axes; null if nothing has triangles.
-Json in_file_units(const SceneSource& source, const Measures& found) {
+/// exact: gives the box in place of the triangles'.
+Json in_file_units(const SceneSource& source, const Measures& found, const std::optional<ExactSum>& exact = {}) {
     if (found.triangles == found.not_finite_triangles) return nullptr;
     const Placement& placement = source.placement;
     const auto [name, unit] = file_unit(source);
-    const auto [min, max] = file_box(source, found.min, found.max);
+    const FileBox box = exact ? FileBox{exact->min, exact->max} : in_file(source.placement, found.min, found.max);
+    const Vec3d &min = box.min, &max = box.max;
     const Vec3d size = max - min;
     const double largest = std::max({size.x, size.y, size.z});
     return Json{{"unit", name.empty() ? Json(nullptr) : Json(name)},
@@ -95,37 +128,32 @@ Json bodies_json(const SceneSource& source, std::span<const Body> bodies) {
     return list;
 }
 
-/// {"tolerance", "area", "volume"} of the file's surfaces; null: it has triangles.
-Json exact_json(const SceneSource& source) {
-    const std::optional<double> tolerance = tolerance_of(source);
-    if (!tolerance) return nullptr;
-    const ExactMeasures& exact = *source.file->exact;
-    return {{"tolerance", rounded(*tolerance)}, {"area", rounded(exact.area)}, {"volume", rounded(exact.volume)}};
+/// {"tolerance", "area", "volume"}; null: there are no exact surfaces.
+Json exact_json(const SceneSource& source, const std::optional<ExactSum>& exact) {
+    if (!exact) return nullptr;
+    ExactSum whole;
+    for (const ExactMeasures& one : source.file->exact) add(whole, one);
+    constexpr double kShareOfPixel = 0.25;
+    return {{"tolerance", rounded(kShareOfPixel * length(whole.max - whole.min) / source.file->detail_px)},
+            {"area", rounded(exact->area)},
+            {"volume", exact->has_volume ? rounded(exact->volume) : Json(nullptr)}};
 }
 
 }  // namespace
 
-FileBox file_box(const SceneSource& source, Vec3d min, Vec3d max) {
-    // Quarter turns may exchange the ends of an axis.
-    const Vec3d a = source.placement.out(min), b = source.placement.out(max);
-    FileBox box{{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}, {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
-    const std::optional<double> tolerance = tolerance_of(source);
-    if (!tolerance) return box;
-    const ExactMeasures& exact = *source.file->exact;
-    for (double Vec3d::*const axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
-        if (absolute(box.min.*axis - exact.min.*axis) <= *tolerance) box.min.*axis = exact.min.*axis;
-        if (absolute(box.max.*axis - exact.max.*axis) <= *tolerance) box.max.*axis = exact.max.*axis;
-    }
-    return box;
+FileBox file_box(const RenderJob& job, Vec3d min, Vec3d max) {
+    const std::optional<ExactSum> exact = drawn_sum(job);
+    return exact ? FileBox{exact->min, exact->max} : in_file(job.source.placement, min, max);
 }
 
 Result<Json> measures_json(const RenderJob& job) {
     if (!is_soon_measured(job.scene())) return Json(nullptr);
     const auto measured = measure_bodies(job.scene(), kMostBodies);
     if (!measured) return tl::unexpected(measured.error());
-    Json all = in_file_units(job.source, measured->all);
+    const std::optional<ExactSum> exact = drawn_sum(job);
+    Json all = in_file_units(job.source, measured->all, exact);
     if (all.is_null()) return all;
-    all["exact"] = exact_json(job.source);
+    all["exact"] = exact_json(job.source, exact);
     all["body_list"] = bodies_json(job.source, measured->bodies);
     return all;
 }
@@ -133,9 +161,11 @@ Result<Json> measures_json(const RenderJob& job) {
 Result<Json> part_measures_json(const RenderJob& job, const Part& part) {
     const auto measured = measure_geometry(job.scene(), part.instances);
     if (!measured) return tl::unexpected(measured.error());
-    const Json all = in_file_units(job.source, *measured);
+    const std::optional<ExactSum> exact = exact_sum(job, [&](const Part& one) { return &one == &part; });
+    Json all = in_file_units(job.source, *measured, exact);
     if (all.is_null()) return all;
-    constexpr const char* kKeys[] = {"size", "area", "volume", "watertight", "open_edges"};
+    all["exact"] = exact_json(job.source, exact);
+    constexpr const char* kKeys[] = {"size", "area", "volume", "watertight", "open_edges", "exact"};
     return chosen_keys(all, kKeys);
 }
 

@@ -10,15 +10,15 @@ namespace halflit::engine {
 /// scenes that draw more than 2^25 triangles by drawing the same meshes again and again. Fails after the time limit.
 [[nodiscard]] Result<Json> measures_json(const RenderJob& job);
 
-/// {"size", "area", "volume", "watertight", "open_edges"} of a part, drawn or not, in the same unit. Null if it has no triangles.
+/// {"size", "area", "volume", "watertight", "open_edges", "exact"} of a part, drawn or not, in the same unit. Null if it has no triangles.
 [[nodiscard]] Result<Json> part_measures_json(const RenderJob& job, const Part& part);
 
-/// Corners of a box of the drawn world in the file's coordinates. Where the file's exact box ends there too, but for the tolerance of
-/// triangles, its numbers are given.
+/// Corners of a box in the file's coordinates.
 struct FileBox {
     Vec3d min, max;
 };
-[[nodiscard]] FileBox file_box(const SceneSource& source, Vec3d min, Vec3d max);
+/// That of what is drawn: of its surfaces where the file has exact ones and nothing is cut, or else these corners of the drawn world.
+[[nodiscard]] FileBox file_box(const RenderJob& job, Vec3d min, Vec3d max);
 
 /// False where measures_json() is null for the number of triangles.
 [[nodiscard]] bool parts_are_soon_measured(const RenderJob& job);

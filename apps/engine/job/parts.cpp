@@ -8,7 +8,7 @@ namespace halflit::engine {
 Parts::Parts(const Scene& scene) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         of_instance_.push_back(static_cast<int>(i));
-        parts_.push_back({"", {static_cast<int>(i)}, -1});
+        parts_.push_back({"", {static_cast<int>(i)}});
     }
     name_by_meshes(scene);
 }
@@ -22,7 +22,7 @@ Parts::Parts(const LoadedScene& loaded) {
     for (std::size_t node = 0; node < part_of_node.size(); ++node) {
         if (part_of_node[node] < 0) continue;
         part_of_node[node] = static_cast<int>(parts_.size());
-        parts_.push_back({loaded.nodes[node].name, {}, loaded.nodes[node].parent});
+        parts_.push_back({loaded.nodes[node].name, {}, loaded.nodes[node].parent, static_cast<int>(node)});
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i] < 0) continue;

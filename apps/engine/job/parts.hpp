@@ -15,6 +15,7 @@ struct Part {
     std::string name;            ///< of the node; else of its mesh; may be empty
     std::vector<int> instances;  ///< indices into Scene::instances, one for each material
     int group = -1;              ///< index into Parts::groups() of the node above its own; -1: none
+    int node = -1;               ///< its own, index into Parts::groups(); -1: the scene has no file
 };
 
 /// A node of the file, with or without a part. It may have parts below it.

@@ -19,6 +19,7 @@
 #include "raster/choice/completed_light.hpp"
 #include "raster/scene/prepared_data.hpp"
 #include "sh/arc.hpp"
+#include "sh/mat4.hpp"
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/environment.hpp"
@@ -433,11 +434,15 @@ Result<void> check_conflicts(const RenderOptions& options, PictureSize usual) {
     return {};
 }
 
+/// Of an importer's triangles.
+constexpr const char* kCoarse = "triangles may be more than a quarter of a pixel off: ";
+
 /// The next power of two, so that views of about one size share what an importer made; at least that of a load without a view.
 double rounded_detail(double pixels) {
     constexpr double kMost = 32768.0;
-    const double kLeast = LoadOptions{}.detail_px;
-    return std::exp2(std::ceil(std::log2(std::clamp(pixels, kLeast, kMost))));
+    double rounded = LoadOptions{}.detail_px;
+    while (rounded < pixels && rounded < kMost) rounded *= 2.0;
+    return rounded;
 }
 
 /// Pixels along the diagonal of a model that is framed, at its nearest point: 1.5 is that of a ball in the usual field of view.
@@ -447,19 +452,26 @@ double framed_detail(const RenderOptions& options, PictureSize usual) {
     return rounded_detail(kNearer * std::max(size.width, size.height) * std::max(1.0, static_cast<double>(options.view.zoom)));
 }
 
-/// The same for the view that was chosen. A camera inside of the model's box is a hundredth of the diagonal away.
-double seen_detail(const RenderJob& job) {
-    const Bounds& bounds = job.prepared->bounds();
-    const Camera& camera = job.camera;
-    const Vec3d low = to_double(bounds.min), high = to_double(bounds.max), eye = axis(camera.world_from_camera, 3);
-    const double diagonal = length(high - low);
+/// Pixels that a unit of length takes at the point of a box that is nearest to the camera. A camera inside of the box is a hundredth of its
+/// diagonal away.
+double pixels_by_length(const Camera& camera, int height, Vec3d low, Vec3d high) {
+    const Vec3d eye = axis(camera.world_from_camera, 3);
     const Vec3d beyond{std::max({low.x - eye.x, eye.x - high.x, 0.0}), std::max({low.y - eye.y, eye.y - high.y, 0.0}),
                        std::max({low.z - eye.z, eye.z - high.z, 0.0})};
-    const double height = camera.sides          ? static_cast<double>(camera.sides->top - camera.sides->bottom)
-                          : camera.orthographic ? 2.0 * static_cast<double>(camera.half_height)
-                                                : 2.0 * std::tan(0.5 * static_cast<double>(camera.fov_y_rad));
-    const double away = camera.orthographic ? 1.0 : std::max(length(beyond), 0.01 * diagonal);
-    return rounded_detail(diagonal * job.height / (height * away));
+    const auto half = sin_cos(0.5 * static_cast<double>(camera.fov_y_rad));
+    const double view = camera.sides          ? static_cast<double>(camera.sides->top - camera.sides->bottom)
+                        : camera.orthographic ? 2.0 * static_cast<double>(camera.half_height)
+                                              : 2.0 * half.sin / half.cos;
+    const double away = camera.orthographic ? 1.0 : std::max(length(beyond), 0.01 * length(high - low));
+    return height / (view * away);
+}
+
+/// The fineness that the chosen views need, of what they show of a model whose whole box has this diagonal.
+double seen_detail(const RenderJob& job, double diagonal) {
+    const Vec3d low = to_double(job.prepared->bounds().min), high = to_double(job.prepared->bounds().max);
+    double most = pixels_by_length(job.camera, job.height, low, high);
+    for (const Camera& camera : job.film.views) most = std::max(most, pixels_by_length(camera, job.height, low, high));
+    return rounded_detail(diagonal * most);
 }
 
 Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
@@ -484,12 +496,26 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     timed.load.keep_animations = options.film.animates();
     timed.load.import_cache = options.import_cache;
     if (!flags.detail_given) timed.load.detail_px = framed_detail(options, usual);
+    if (options.scene == "-" && options.input == nullptr) {
+        auto bytes = read_standard_input(timed.load.limits.max_file_bytes, timed.load.limits.time_limit_s);
+        if (!bytes) return tl::unexpected(bytes.error());
+        timed.input = std::make_shared<const std::vector<std::byte>>(std::move(*bytes));
+    }
     auto source = load_scene(timed);
+    bool may_be_finer = !flags.detail_given;
+    if (!source && source.error().code == ErrorCode::limit && !flags.detail_given && timed.load.detail_px > LoadOptions{}.detail_px) {
+        job.warnings.push_back(std::string(kCoarse) + source.error().message);
+        timed.load.detail_px = LoadOptions{}.detail_px;
+        may_be_finer = false;
+        source = load_scene(timed);
+    }
     if (!source) return tl::unexpected(source.error());
     job.load_ms = loading.ms();
     job.source = std::move(*source);
-    job.warnings = job.source.warnings;
+    job.warnings.insert(job.warnings.end(), job.source.warnings.begin(), job.source.warnings.end());
     if (options.cameras) job.warnings.insert(job.warnings.end(), options.cameras->warnings.begin(), options.cameras->warnings.end());
+    const bool is_imported = job.source.file && job.source.file->detail_px > 0 && may_be_finer;
+    const Bounds whole = is_imported ? scene_bounds(job.scene()) : Bounds{};
     job.pose_time_s = options.load.time_s;
     if (const AnimationInfo* const animation = job.animation())
         job.choices.push_back(pose_choice(*animation, job.source.animation, job.pose_time_s));
@@ -525,11 +551,16 @@ Result<RenderJob> make_job(const RenderOptions& flags, PictureSize usual) {
     auto request = request_of(job, placed, usual);
     if (!request) return tl::unexpected(request.error());
     if (const auto chosen = choose(job, placed, std::move(*request)); !chosen) return tl::unexpected(chosen.error());
-    if (job.source.file && job.source.file->detail_px > 0 && !flags.detail_given) {
+    if (is_imported && !bounds.empty) {
         RenderOptions finer = flags;
-        finer.load.detail_px = seen_detail(job);
+        finer.input = timed.input;
+        finer.load.detail_px = seen_detail(job, length(to_double(whole.max) - to_double(whole.min)));
         finer.detail_given = true;
-        if (finer.load.detail_px > timed.load.detail_px) return make_job(finer, usual);
+        if (finer.load.detail_px > job.source.file->detail_px) {
+            auto again = make_job(finer, usual);
+            if (again || again.error().code != ErrorCode::limit) return again;
+            job.warnings.push_back(std::string(kCoarse) + again.error().message);
+        }
     }
     if (job.film.framed && !options.kept_view) warn_of_left_out(job);
     tell_choices(job, options);

@@ -13,6 +13,7 @@ Result<LoadedScene> load_file(const RenderOptions& options) {
     LoadOptions load = options.load;
     load.threads = options.execution.threads;
     if (options.scene != "-") return load_model(options.scene, load);
+    if (options.input != nullptr) return load_model_bytes(*options.input, kStandardInputName, "", load);
     const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
     if (!bytes) return tl::unexpected(bytes.error());
     return load_model_bytes(*bytes, kStandardInputName, "", load);

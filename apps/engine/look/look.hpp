@@ -20,9 +20,9 @@ struct LookOptions : RenderOptions {
     bool perspective = false;
     int certify = 0;  ///< pixels that count as seen; 0: no certificate
     int most_views = 24;
-    bool sheet = true;   ///< draw the sheet
+    bool sheet = true;                          ///< draw the sheet
     VectorFormat vectors = VectorFormat::none;  ///< draw it as a file of vectors too
-    std::string folder;  ///< of a picture of each view; empty: none
+    std::string folder;                         ///< of a picture of each view; empty: none
 };
 
 /// Flags of a sheet, and those of its pictures. `options` must outlive what this returns.

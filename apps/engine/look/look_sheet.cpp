@@ -51,7 +51,7 @@ PixelBox draw_dimensions(const RenderJob& job, const ViewShot& shot, const Pixel
                          {k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y, k & 4 ? bounds.max.z : bounds.min.z});
         x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
     }
-    const FileBox box = file_box(job.source, to_double(bounds.min), to_double(bounds.max));
+    const FileBox box = file_box(job, to_double(bounds.min), to_double(bounds.max));
     const Vec3d size = absolute(turned_upright(box.max - box.min, job.source.placement.up)) * job.source.placement.scale;
     const auto along = [&](const Vec4f& v) { return absolute(v.x) * size.x + absolute(v.y) * size.y + absolute(v.z) * size.z; };
     const auto text = [&](double length) { return number_text(length * unit.per_drawn_unit) + (unit.name.empty() ? "" : " ") + unit.name; };

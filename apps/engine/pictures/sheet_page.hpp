@@ -74,8 +74,8 @@ private:
 struct SheetCell {
     std::string title, note;  ///< above the picture, on the left and on the right; of all cells or of none
     Image picture;
-    std::vector<std::string> lines;      ///< below it
-    std::vector<VectorShape> shapes{};   ///< what the picture shows, in its pixels
+    std::vector<std::string> lines;     ///< below it
+    std::vector<VectorShape> shapes{};  ///< what the picture shows, in its pixels
 };
 /// A page of cells. All have the size of the largest picture and the most lines. columns 0: chosen, as by sheet_layout. shapes: gets those
 /// of the cells and the texts, in pixels of the page, for black on white; null: they are not wanted.

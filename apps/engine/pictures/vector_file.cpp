@@ -49,8 +49,8 @@ std::string svg_of(std::span<const VectorShape> shapes, int width, int height) {
         const std::string color = fmt::format("#{:02x}{:02x}{:02x}", shape.color.r, shape.color.g, shape.color.b);
         text += "<path d=\"" + path_of(shape, true, "M", "L", "Z") + '"';
         if (shape.stroke_width > 0.0)
-            text += fmt::format(" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"{}", color,
-                                number(shape.stroke_width), shape.dashed ? fmt::format(" stroke-dasharray=\"{0} {0}\"", kDash) : "");
+            text += fmt::format(" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"{}",
+                                color, number(shape.stroke_width), shape.dashed ? fmt::format(" stroke-dasharray=\"{0} {0}\"", kDash) : "");
         else
             text += fmt::format(" fill=\"{}\"", color);
         text += "/>\n";
@@ -69,11 +69,10 @@ std::string pdf_of(std::span<const VectorShape> shapes, int width, int height) {
         if (is_stroke) page += fmt::format("{} w [{}] 0 d\n", number(shape.stroke_width), shape.dashed ? number(kDash) : "");
         page += path_of(shape, false, "m", "l", "h\n") + (is_stroke ? "S\n" : "f\n");
     }
-    const std::string objects[] = {
-        "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-        fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Contents 4 0 R /Resources << >> >>", number(kPoints * width),
-                    number(kPoints * height)),
-        fmt::format("<< /Length {} >>\nstream\n{}endstream", page.size(), page)};
+    const std::string objects[] = {"<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+                                   fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Contents 4 0 R /Resources << >> >>",
+                                               number(kPoints * width), number(kPoints * height)),
+                                   fmt::format("<< /Length {} >>\nstream\n{}endstream", page.size(), page)};
     std::string text = "%PDF-1.4\n", places;
     for (std::size_t i = 0; i < std::size(objects); ++i) {
         places += fmt::format("{:010} 00000 n \n", text.size());

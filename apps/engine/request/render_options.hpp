@@ -90,11 +90,12 @@ struct RenderOptions {
     float exposure_compensation_ev = 0.0f;
 
     LoadOptions load;
-    bool import_cache = true;       ///< keep what importers make in the user's cache
-    bool detail_given = false;      ///< load.detail_px counts; otherwise it follows from the view
-    SceneKeeper* keeper = nullptr;  ///< loads the scene; null: load_scene() alone
-    FilmOptions film;               ///< of render alone
-    double timeout_s = 0.0;         ///< for loading and drawing; 0: none
+    std::shared_ptr<const std::vector<std::byte>> input{};  ///< of standard input, once it was read
+    bool import_cache = true;                               ///< keep what importers make in the user's cache
+    bool detail_given = false;                              ///< load.detail_px counts; otherwise it follows from the view
+    SceneKeeper* keeper = nullptr;                          ///< loads the scene; null: load_scene() alone
+    FilmOptions film;                                       ///< of render alone
+    double timeout_s = 0.0;                                 ///< for loading and drawing; 0: none
     /// `load` with that limit.
     [[nodiscard]] LoadOptions timed_load() const {
         LoadOptions timed = load;

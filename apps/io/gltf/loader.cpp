@@ -83,6 +83,7 @@ LoadedScene read_at(std::span<const std::byte> bytes, const std::string& base_di
 LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::string& base_dir, const LoadOptions& options) {
     const WorkLimit work(allowed_work(options.limits, bytes.size()));
     LoadedScene loaded = read_at(bytes, base_dir, options);
+    loaded.info.exact.clear();  // a stranger's file may say anything
     if (options.strict || options.time_s != 0.0 || options.keep_animations || loaded.animation < 0 || !has_no_size(loaded.scene))
         return loaded;
     const double end_s = loaded.animations.at(static_cast<std::size_t>(loaded.animation)).end_s;
@@ -101,6 +102,11 @@ LoadedScene io::detail::read_gltf(std::span<const std::byte> bytes, const std::s
     if (has_no_size(other.scene)) return loaded;
     other.warnings.push_back(fmt::format("animations[{}]: hides all; drawn without it", loaded.animation));
     return other;
+}
+
+LoadedScene io::detail::read_imported(std::span<const std::byte> bytes, const LoadOptions& options) {
+    const WorkLimit work(allowed_work(options.limits, bytes.size()));
+    return read_at(bytes, "", options);
 }
 
 namespace {

@@ -125,9 +125,10 @@ bool is_iges(std::span<const std::byte> bytes) {
 }
 
 constexpr std::string_view kByBlender = "convert it by Blender to GLB",
-                           kByImporter = "the program halflit-import-cad reads it, and is not here",
-                           kByCad = "export it from a CAD program (FreeCAD, CadQuery) as STL or 3MF",
-                           kByItsCad = "export it from its program as STL, 3MF or GLB",
+                           kByImporter =
+                               "halflit-import-cad, of the package halflit-cad, reads it: it is neither beside this program nor in PATH",
+                           kByCad = "export it from a CAD program (FreeCAD, CadQuery) as STEP, STL or 3MF",
+                           kByItsCad = "export it from its program as STEP, STL, 3MF or GLB",
                            kByCloud = "convert it by CloudCompare or PDAL to PLY",
                            kBySplat = "convert it by SuperSplat or splat-transform to PLY", kByAssimp = "convert it by assimp to GLB",
                            kByParaView = "export it from ParaView as GLB or PLY", kByMeshio = "convert it by meshio to STL or PLY",

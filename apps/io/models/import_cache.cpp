@@ -3,6 +3,7 @@
 #include "apps/io/files/atomic_file.hpp"
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/files/little_endian.hpp"
+#include "apps/io/models/model_text.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/paths.hpp"
 
@@ -12,6 +13,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <random>
 #include <string_view>
@@ -21,9 +23,9 @@
 namespace halflit::io::detail {
 namespace {
 
-constexpr std::size_t kKeyBytes = 16, kMostKept = std::size_t{256} << 20, kMostOfOne = kMostKept / 4;
+constexpr std::size_t kKeyBytes = 16, kSealBytes = 32, kMostKept = std::size_t{256} << 20, kMostOfOne = kMostKept / 4;
 
-/// SipHash-2-4 of 128 bits [Aumasson, Bernstein 2012]. Who does not know the key cannot make two files of one hash.
+/// SipHash-2-4 of 128 bits [AB12]: somebody who does not know the key cannot make two files of one hash.
 class SipHash {
 public:
     explicit SipHash(std::span<const std::byte> key) {
@@ -67,14 +69,22 @@ private:
     std::array<std::uint64_t, 4> v_;
 };
 
+/// False for what is not there, and for links, pipes and the like.
+bool is_plain_file(const std::string& path) {
+    platform::FileStatus status;
+    return !platform::is_link(path) && platform::status_of(path, status) == 0 && status.kind == platform::FileKind::file;
+}
+
 /// The key of a folder, which is made with it. Empty: there is none.
 std::vector<std::byte> key_of(const std::string& folder) {
     const std::string path = folder + "/key";
+    platform::FileStatus status;
+    const bool is_there = platform::is_link(path) || platform::status_of(path, status) == 0;
+    if (is_there && !is_plain_file(path)) return {};
     if (auto kept = read_file(path, kKeyBytes); kept && kept->size() == kKeyBytes) return *std::move(kept);
     std::error_code error;
     const std::filesystem::path place = platform::to_path(folder);
-    std::filesystem::create_directories(place, error);
-    std::filesystem::permissions(place, std::filesystem::perms::owner_all, error);
+    if (std::filesystem::create_directories(place, error)) std::filesystem::permissions(place, std::filesystem::perms::owner_all, error);
     if (error) return {};
     std::random_device random;
     std::vector<std::uint8_t> key(kKeyBytes);
@@ -97,12 +107,23 @@ ImportCache::ImportCache(const std::string& folder, const std::vector<std::strin
     hash.add(fmt::format("{} {}", program.bytes, program.changed_ns));
     hash.add(input);
     path_ = folder + "/" + hash.hex() + ".glb";
+    key_ = key;
+}
+
+/// Behind the GLB in its file.
+std::string ImportCache::seal_of(std::span<const std::byte> glb) const {
+    SipHash hash(key_);
+    hash.add(glb);
+    return hash.hex();
 }
 
 std::optional<std::vector<std::byte>> ImportCache::find() const {
-    if (path_.empty()) return std::nullopt;
-    auto kept = read_file(path_, kMostOfOne);
-    if (!kept) return std::nullopt;
+    if (path_.empty() || !is_plain_file(path_)) return std::nullopt;
+    auto kept = read_file(path_, kMostOfOne + kSealBytes);
+    if (!kept || kept->size() < kSealBytes) return std::nullopt;
+    const std::span<const std::byte> glb = std::span(*kept).first(kept->size() - kSealBytes);
+    if (as_text(std::span(*kept).subspan(glb.size())) != seal_of(glb)) return std::nullopt;  // it was damaged there
+    kept->resize(glb.size());
     std::error_code ignored;
     std::filesystem::last_write_time(platform::to_path(path_), std::filesystem::file_time_type::clock::now(), ignored);
     return *std::move(kept);
@@ -110,7 +131,12 @@ std::optional<std::vector<std::byte>> ImportCache::find() const {
 
 void ImportCache::keep(std::span<const std::byte> glb) const {
     if (path_.empty() || glb.size() > kMostOfOne) return;
-    if (!write_file(path_, {reinterpret_cast<const std::uint8_t*>(glb.data()), glb.size()})) return;
+    if (platform::is_link(path_)) (void)platform::remove_file(path_);
+    const std::string seal = seal_of(glb);
+    std::vector<std::uint8_t> bytes_of_file(glb.size());
+    std::memcpy(bytes_of_file.data(), glb.data(), glb.size());
+    bytes_of_file.insert(bytes_of_file.end(), seal.begin(), seal.end());
+    if (!write_file(path_, bytes_of_file)) return;
     constexpr std::size_t kMostFiles = 100'000;
     std::vector<std::tuple<std::int64_t, std::uint64_t, std::string>> all;  // age, bytes, path
     std::uint64_t bytes = 0;
@@ -132,8 +158,10 @@ std::string user_import_cache() {
         return std::string(value == nullptr ? "" : value);
     };
     const std::string own = variable("XDG_CACHE_HOME"), home = variable("HOME");
-    if (!own.empty()) return own + "/halflit/import";
-    return home.empty() ? "" : home + "/.cache/halflit/import";
+    if (platform::is_absolute(own)) return own + "/halflit/import";
+    platform::FileStatus status;  // a home that is not there is not made
+    const bool is_there = platform::is_absolute(home) && platform::status_of(home, status) == 0;
+    return is_there ? home + "/.cache/halflit/import" : "";
 }
 
 }  // namespace halflit::io::detail

@@ -15,12 +15,16 @@ public:
     /// program's own size and time count.
     ImportCache(const std::string& folder, const std::vector<std::string>& words, std::span<const std::byte> input);
 
+    /// Nothing: it is not there, or it was changed there.
     [[nodiscard]] std::optional<std::vector<std::byte>> find() const;
     /// Removes those that were used least recently where all take more than 256 MiB.
     void keep(std::span<const std::byte> glb) const;
 
 private:
+    [[nodiscard]] std::string seal_of(std::span<const std::byte> glb) const;
+
     std::string folder_, path_;  ///< path_ is empty where nothing is kept
+    std::vector<std::byte> key_;
 };
 
 /// halflit/import in XDG_CACHE_HOME, or in ~/.cache; empty: there is no such place.

@@ -27,9 +27,10 @@ struct ChildResult {
 [[nodiscard]] bool can_run_children();
 
 /// Runs a program, words[0] of which is its path, with `input` as a file on its standard input, and takes what it writes to its standard
-/// output. It has no other open files and hardly any environment. It cannot write files or dump its memory; on Linux it starts no
-/// processes, opens no sockets (seccomp), and reads the system's libraries and its own folder alone (Landlock), where the kernel has them.
-/// It ends with this call, also if check_time() throws: that is asked fifty times a second.
+/// output. It has no other open files, no terminal, and hardly any environment. It cannot write to files or dump its memory; on Linux it
+/// starts no processes, opens no sockets (seccomp), and reads the system's programs and libraries and its own folder alone (Landlock),
+/// where the kernel has them. It and what it may have started end with this call, also if check_time() throws: that is asked fifty times a
+/// second.
 [[nodiscard]] ChildResult run_confined(const std::vector<std::string>& words, std::span<const std::byte> input, const ChildLimits& limits);
 
 /// Folder of the program or the shared library that this function is in; empty: not known.

@@ -14,8 +14,8 @@ namespace halflit {
 /// Order of the four bytes of a pixel in Target::pixels.
 enum class PixelFormat : std::uint8_t { rgba8, bgra8 };
 
-/// A part of a model's edge that a picture with Settings::edges shows, from end to end. Pixels, x right and y down; (0, 0) is the upper left
-/// corner of the whole picture.
+/// A part of a model's edge that a picture with Settings::edges shows, from end to end. Pixels, x right and y down; (0, 0) is the upper
+/// left corner of the whole picture.
 struct DrawnEdge {
     double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     bool hidden = false;  ///< a surface lies before it

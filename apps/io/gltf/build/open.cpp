@@ -82,8 +82,13 @@ void fill_info(Document& document, std::span<const std::byte> bytes) {
     info.unit_m = 1.0;
     info.version = file.version;
     info.generator = printable(file.generator, 100);
-    if (const std::vector<double>& m = file.measures; m.size() == 8)
-        info.exact = ExactMeasures{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], m[7]};
+    constexpr std::size_t kMembers = 10;  // of ExactMeasures
+    for (std::size_t i = 0; i + kMembers <= file.measures.size(); i += kMembers) {
+        const double* const m = &file.measures[i];
+        if (m[1] <= m[4] && m[2] <= m[5] && m[3] <= m[6] && m[0] >= 0 && m[0] < static_cast<double>(file.nodes.size()))
+            info.exact.push_back({static_cast<int>(m[0]), {m[1], m[2], m[3]}, {m[4], m[5], m[6]}, m[7], m[8], m[9] > 0 ? 1 : 0});
+    }
+    for (const std::string_view warning : file.import_warnings) document.warn(printable(warning, 200));
     info.scenes = file.scenes.size();
     info.meshes = file.meshes.size();
     info.primitives = file.primitives;

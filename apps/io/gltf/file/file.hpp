@@ -244,8 +244,9 @@ struct Animation {
 
 struct File {
     std::string_view version, min_version, generator;
-    std::vector<double> measures;   ///< of an importer: ExactMeasures, member by member
-    bool has_dictionaries = false;  ///< lists are objects, as in glTF 1.0
+    std::vector<double> measures;                   ///< of an importer: ExactMeasures one after the other, member by member
+    std::vector<std::string_view> import_warnings;  ///< likewise, one line each
+    bool has_dictionaries = false;                  ///< lists are objects, as in glTF 1.0
     std::vector<std::string_view> extensions_used, extensions_required;
     std::vector<Buffer> buffers;
     std::vector<BufferView> buffer_views;

@@ -136,11 +136,13 @@ struct AnimationInfo {
 /// so any number of threads may use it.
 class Motion;
 
-/// Measures of a file's surfaces, not of the triangles that are drawn: millimetres, along the file's axes.
+/// Measures of a node's surfaces, not of the triangles that are drawn. Millimetres, along the file's axes.
 struct ExactMeasures {
-    Vec3d min{}, max{};   ///< corners of the smallest box along the axes
+    int node = -1;        ///< index into LoadedScene::nodes
+    Vec3d min{}, max{};   ///< corners of its smallest box along the axes
     double area = 0.0;    ///< of all faces
     double volume = 0.0;  ///< of all solids
+    int solids = 0;       ///< number of these
 };
 
 /// Contents of the file, drawn or not.
@@ -155,7 +157,7 @@ struct SceneInfo {
     /// @}
     double unit_m = 0.0;                        ///< length of the file's unit in metres; 0: the format has none
     double detail_px = 0.0;                     ///< LoadOptions::detail_px of an importer's triangles; 0: they are the file's own
-    std::optional<ExactMeasures> exact{};       ///< with LoadOptions::exact_measures, of formats that have exact surfaces
+    std::vector<ExactMeasures> exact{};         ///< with LoadOptions::exact_measures, of nodes of formats that have exact surfaces
     std::size_t point_and_line_primitives = 0;  ///< primitives of the drawn nodes that are points or lines
     std::uint64_t triangles_stored = 0;         ///< triangles of the meshes that are drawn, each once
     std::uint64_t triangles_drawn = 0;          ///< triangles over all instances

@@ -16,6 +16,8 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <iterator>
 
 namespace halflit::platform {
 
@@ -46,81 +48,135 @@ void allow_reading(int rules, const char* path, bool is_folder) {
     (void)::close(folder);
 }
 
+#if defined(__x86_64__) || defined(__aarch64__)
 #if defined(__x86_64__)
 constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64;
 #else
-constexpr std::uint32_t kMachine = 0;  // no filter
+constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64;
 #endif
 
-/// System calls that no reader of a model needs: they change files, reach other processes or machines, or widen rights.
-constexpr int kRefused[] = {
-    SYS_socket,
-    SYS_socketpair,
-    SYS_connect,
-    SYS_bind,
-    SYS_sendto,
-    SYS_sendmsg,
-    SYS_ptrace,
-    SYS_process_vm_readv,
-    SYS_process_vm_writev,
-    SYS_mount,
-    SYS_umount2,
-    SYS_pivot_root,
-    SYS_chroot,
-    SYS_setns,
-    SYS_unshare,
-    SYS_keyctl,
-    SYS_add_key,
-    SYS_request_key,
-    SYS_bpf,
-    SYS_perf_event_open,
-    SYS_unlinkat,
-    SYS_renameat,
-    SYS_renameat2,
-    SYS_linkat,
-    SYS_symlinkat,
-    SYS_mkdirat,
-    SYS_mknodat,
-    SYS_fchmod,
-    SYS_fchmodat,
-    SYS_fchown,
-    SYS_fchownat,
-    SYS_truncate,
-    SYS_setxattr,
-    SYS_fsetxattr,
-    SYS_utimensat,
-    SYS_kill,
-    SYS_tkill,
-    SYS_init_module,
-    SYS_finit_module,
-    SYS_kexec_load,
-    SYS_reboot,
-    SYS_swapon,
-    SYS_userfaultfd,
-    SYS_setpgid,
-    SYS_setsid,
-    SYS_msgget,
-    SYS_shmget,
-    SYS_mq_open,
+/// System calls of programs that read one file, compute with threads and write to a pipe. All others are refused: those that change
+/// files, reach other processes or machines, or widen rights, and those that the kernel will have.
+constexpr int kAllowed[] = {
+    // streams and files
+    SYS_read,
+    SYS_readv,
+    SYS_pread64,
+    SYS_preadv,
+    SYS_write,
+    SYS_writev,
+    SYS_pwrite64,
+    SYS_close,
+    436 /* close_range */,
+    SYS_lseek,
+    SYS_fstat,
+    SYS_newfstatat,
+    SYS_statx,
+    SYS_statfs,
+    SYS_fstatfs,
+    SYS_faccessat,
+    439 /* faccessat2 */,
+    SYS_readlinkat,
+    SYS_getdents64,
+    SYS_getcwd,
+    SYS_chdir,
+    SYS_umask,
+    SYS_dup,
+    SYS_dup3,
+    SYS_pipe2,
+    SYS_ppoll,
+    SYS_pselect6,
+    SYS_epoll_create1,
+    SYS_epoll_ctl,
+    SYS_epoll_pwait,
+    SYS_eventfd2,
+    SYS_memfd_create,
+    SYS_fadvise64,
+    SYS_fsync,
+    SYS_fdatasync,
+    // memory
+    SYS_brk,
+    SYS_mmap,
+    SYS_munmap,
+    SYS_mremap,
+    SYS_mprotect,
+    SYS_madvise,
+    SYS_mincore,
+    SYS_msync,
+    SYS_membarrier,
+    // the process itself
+    SYS_execve,
+    SYS_exit,
+    SYS_exit_group,
+    SYS_wait4,
+    SYS_waitid,
+    SYS_getpid,
+    SYS_getppid,
+    SYS_gettid,
+    SYS_getuid,
+    SYS_geteuid,
+    SYS_getgid,
+    SYS_getegid,
+    SYS_getresuid,
+    SYS_getresgid,
+    SYS_getgroups,
+    SYS_getpgid,
+    SYS_getsid,
+    SYS_capget,
+    SYS_getrusage,
+    SYS_times,
+    SYS_getpriority,
+    SYS_uname,
+    SYS_sysinfo,
+    SYS_getrandom,
+    SYS_getcpu,
+    SYS_personality,
+    SYS_rt_sigaction,
+    SYS_rt_sigprocmask,
+    SYS_rt_sigreturn,
+    SYS_rt_sigpending,
+    SYS_rt_sigsuspend,
+    SYS_rt_sigtimedwait,
+    SYS_sigaltstack,
+    SYS_restart_syscall,
+    // threads and time
+    SYS_futex,
+    SYS_set_tid_address,
+    SYS_set_robust_list,
+    SYS_get_robust_list,
+    334 - 41 * (kMachine == AUDIT_ARCH_AARCH64) /* rseq */,
+    SYS_sched_yield,
+    SYS_sched_getaffinity,
+    SYS_sched_getparam,
+    SYS_sched_getscheduler,
+    SYS_sched_get_priority_max,
+    SYS_sched_get_priority_min,
+    SYS_nanosleep,
+    SYS_clock_nanosleep,
+    SYS_clock_gettime,
+    SYS_clock_getres,
+    SYS_gettimeofday,
+    SYS_getitimer,
+    SYS_setitimer,
 #ifdef SYS_open  // names of older machines
-    SYS_creat,
-    SYS_fork,
-    SYS_vfork,
-    SYS_unlink,
-    SYS_rename,
-    SYS_link,
-    SYS_symlink,
-    SYS_mkdir,
-    SYS_rmdir,
-    SYS_mknod,
-    SYS_chmod,
-    SYS_chown,
-    SYS_lchown,
-    SYS_utime,
-    SYS_utimes,
-    SYS_setrlimit,
+    SYS_stat,
+    SYS_lstat,
+    SYS_access,
+    SYS_readlink,
+    SYS_getdents,
+    SYS_dup2,
+    SYS_pipe,
+    SYS_poll,
+    SYS_select,
+    SYS_epoll_create,
+    SYS_epoll_wait,
+    SYS_eventfd,
+    SYS_getpgrp,
+    SYS_getrlimit,
+    SYS_time,
+    SYS_alarm,
+    SYS_pause,
+    SYS_arch_prctl,
 #endif
 };
 /// Refused as if the kernel did not have them, so that the C library takes the older ones, whose arguments can be seen.
@@ -128,24 +184,30 @@ constexpr int kUnknown[] = {425 /* io_uring_setup */, 435 /* clone3 */, 437 /* o
 
 constexpr sock_filter load(std::size_t offset) { return {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<std::uint32_t>(offset)}; }
 constexpr sock_filter give(std::uint32_t result) { return {BPF_RET | BPF_K, 0, 0, result}; }
-/// Skips one step where the value is this one.
+/// Skips one step where the value is not this one.
 constexpr sock_filter skip_unless(std::uint32_t value) { return {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, value}; }
 constexpr std::uint32_t kEperm = SECCOMP_RET_ERRNO | EPERM, kEnosys = SECCOMP_RET_ERRNO | ENOSYS;
 
-/// A list of steps that fits the stack: between fork and exec no memory can be taken.
+/// A list of steps that fits the stack: between fork and exec no memory can be taken. Of arguments the low half of 64 bits is seen, as of
+/// little-endian machines; those that decide are of 32 bits.
 class Filter {
 public:
     void add(sock_filter step) { steps_[count_++] = step; }
-    void refuse(int call, std::uint32_t result) { add(skip_unless(static_cast<std::uint32_t>(call))), add(give(result)); }
-    /// Refuses the call if any (all = false) or not all (all = true) bits of an argument are set.
-    void refuse_bits(int call, std::size_t argument, std::uint32_t bits, bool unless_set) {
-        // the low half of 64 bits: little-endian machines alone have a filter
+    void answer(int call, std::uint32_t result) { add(skip_unless(static_cast<std::uint32_t>(call))), add(give(result)); }
+    /// Allows the call with one of these values of an argument.
+    void allow_values(int call, std::size_t argument, std::initializer_list<std::uint32_t> values) {
+        add({BPF_JMP | BPF_JEQ | BPF_K, 0, static_cast<std::uint8_t>(2 * values.size() + 2), static_cast<std::uint32_t>(call)});
+        add(load(offsetof(seccomp_data, args) + 8 * argument));
+        for (const std::uint32_t value : values) add(skip_unless(value)), add(give(SECCOMP_RET_ALLOW));
+        add(give(kEperm));
+    }
+    /// Allows the call if all of the bits of an argument are as in `wanted`: all set, or none.
+    void allow_bits(int call, std::size_t argument, std::uint32_t bits, bool wanted) {
         add({BPF_JMP | BPF_JEQ | BPF_K, 0, 4, static_cast<std::uint32_t>(call)});
         add(load(offsetof(seccomp_data, args) + 8 * argument));
-        const auto jump = [&](std::uint8_t set, std::uint8_t clear) { add({BPF_JMP | BPF_JSET | BPF_K, set, clear, bits}); };
-        unless_set ? jump(1, 0) : jump(0, 1);
+        add({BPF_JMP | BPF_JSET | BPF_K, static_cast<std::uint8_t>(wanted ? 0 : 1), static_cast<std::uint8_t>(wanted ? 1 : 0), bits});
+        add(give(SECCOMP_RET_ALLOW));
         add(give(kEperm));
-        add(load(offsetof(seccomp_data, nr)));
     }
     void install() {
         const sock_fprog program{static_cast<unsigned short>(count_), steps_};
@@ -153,34 +215,38 @@ public:
     }
 
 private:
-    sock_filter steps_[256];
+    static constexpr std::size_t kOthers = 96;  // steps beside those of the lists
+    sock_filter steps_[2 * (std::size(kAllowed) + std::size(kUnknown)) + kOthers];
     std::size_t count_ = 0;
 };
 
 void refuse_calls() {
-    if (kMachine == 0) return;
     Filter filter;
     filter.add(load(offsetof(seccomp_data, arch)));
     filter.add({BPF_JMP | BPF_JEQ | BPF_K, 1, 0, kMachine});
     filter.add(give(SECCOMP_RET_KILL_PROCESS));
     filter.add(load(offsetof(seccomp_data, nr)));
-#ifdef __x86_64__
-    constexpr std::uint32_t kX32 = 0x40000000;
-    filter.add({BPF_JMP | BPF_JGE | BPF_K, 0, 1, kX32});
-    filter.add(give(kEperm));
-#endif
-    for (const int call : kRefused) filter.refuse(call, kEperm);
-    for (const int call : kUnknown) filter.refuse(call, kEnosys);
+    for (const int call : kAllowed) filter.answer(call, SECCOMP_RET_ALLOW);
+    for (const int call : kUnknown) filter.answer(call, kEnosys);
     constexpr std::uint32_t kWrites = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
-    filter.refuse_bits(SYS_openat, 2, kWrites, false);
+    filter.allow_bits(SYS_openat, 2, kWrites, false);
 #ifdef SYS_open
-    filter.refuse_bits(SYS_open, 1, kWrites, false);
+    filter.allow_bits(SYS_open, 1, kWrites, false);
 #endif
-    filter.refuse_bits(SYS_prlimit64, 2, ~0U, false);  // a new limit
-    filter.refuse_bits(SYS_clone, 0, CLONE_THREAD, true);
-    filter.add(give(SECCOMP_RET_ALLOW));
+    filter.allow_bits(SYS_clone, 0, CLONE_THREAD, true);
+    filter.allow_values(SYS_prlimit64, 0, {0});  // its own
+    filter.allow_values(SYS_tgkill, 0, {static_cast<std::uint32_t>(::getpid())});
+    constexpr std::uint32_t kSetMemoryName = 0x53564d41;
+    filter.allow_values(SYS_prctl, 0, {PR_SET_NAME, PR_GET_NAME, PR_GET_DUMPABLE, PR_CAPBSET_READ, kSetMemoryName});
+    filter.allow_values(SYS_fcntl, 1, {F_DUPFD, F_GETFD, F_SETFD, F_GETFL, F_SETFL, F_DUPFD_CLOEXEC});
+    constexpr std::uint32_t kTerminal = 0x5401, kReadable = 0x541B, kClose = 0x5451;  // TCGETS, FIONREAD, FIOCLEX
+    filter.allow_values(SYS_ioctl, 1, {kTerminal, kReadable, kClose});
+    filter.add(give(kEperm));
     filter.install();
 }
+#else
+void refuse_calls() {}
+#endif
 
 }  // namespace
 
@@ -194,7 +260,7 @@ Confinement::Confinement(const std::string& program) {
     rules_ = ::fcntl(made, F_DUPFD_CLOEXEC, kLowestOwn);
     (void)::close(made);
     if (rules_ < 0) return;
-    for (const char* folder : {"/usr", "/lib", "/lib64", "/nix/store", "/gnu/store"}) allow_reading(rules_, folder, true);
+    for (const char* folder : {"/usr", "/bin", "/lib", "/lib64", "/nix/store", "/gnu/store"}) allow_reading(rules_, folder, true);
     for (const char* file : {"/etc/ld.so.cache", "/dev/null", "/dev/urandom"}) allow_reading(rules_, file, false);
     allow_reading(rules_, program.substr(0, program.rfind('/') + 1).c_str(), true);
 }
@@ -204,6 +270,8 @@ Confinement::~Confinement() {
 }
 
 void confine(const Confinement& confinement) {
+    constexpr int kMostCapabilities = 64;
+    for (int i = 0; i < kMostCapabilities; ++i) (void)::prctl(PR_CAPBSET_DROP, i, 0, 0, 0);  // of root
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
     if (confinement.rules() >= 0) (void)::syscall(kRestrict, confinement.rules(), 0);
     refuse_calls();

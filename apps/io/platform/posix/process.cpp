@@ -111,6 +111,7 @@ void call_before_end(void (*last_words)(int signal)) {
     words_before_end = last_words;
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGCHLD, SIG_DFL);  // one that ignored it would not be told how importers end
     sigset_t taken;
     sigemptyset(&taken);
     bool any = false;
