@@ -17,7 +17,10 @@ enum class PixelFormat : std::uint8_t { rgba8, bgra8 };
 /// A part of a model's edge that a picture with Settings::edges shows, from end to end. Pixels, x right and y down; (0, 0) is the upper
 /// left corner of the whole picture.
 struct DrawnEdge {
-    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    double x0 = 0;        ///< one end
+    double y0 = 0;        ///< likewise
+    double x1 = 0;        ///< the other end
+    double y1 = 0;        ///< likewise
     bool hidden = false;  ///< a surface lies before it
 };
 
