@@ -152,16 +152,20 @@ void ImportCache::keep(std::span<const std::byte> glb) const {
         if (platform::remove_file(std::get<2>(all[i])) == 0) bytes -= std::get<1>(all[i]);
 }
 
-std::string user_import_cache() {
-    const auto variable = [](const char* name) {
+std::string user_folder(const char* variable, const char* usual) {
+    const auto value_of = [](const char* name) {
         const char* const value = std::getenv(name);
         return std::string(value == nullptr ? "" : value);
     };
-    const std::string own = variable("XDG_CACHE_HOME"), home = variable("HOME");
-    if (platform::is_absolute(own)) return own + "/halflit/import";
+    if (const std::string own = value_of(variable); platform::is_absolute(own)) return own;
+    const std::string home = value_of("HOME");
     platform::FileStatus status;  // a home that is not there is not made
-    const bool is_there = platform::is_absolute(home) && platform::status_of(home, status) == 0;
-    return is_there ? home + "/.cache/halflit/import" : "";
+    return platform::is_absolute(home) && platform::status_of(home, status) == 0 ? home + "/" + usual : "";
+}
+
+std::string user_import_cache() {
+    const std::string folder = user_folder("XDG_CACHE_HOME", ".cache");
+    return folder.empty() ? "" : folder + "/halflit/import";
 }
 
 }  // namespace halflit::io::detail

@@ -27,6 +27,9 @@ private:
     std::vector<std::byte> key_;
 };
 
+/// A folder of the user's for programs: what the environment's variable says, or else `usual` in the home. Empty: there is none.
+[[nodiscard]] std::string user_folder(const char* variable, const char* usual);
+
 /// halflit/import in XDG_CACHE_HOME, or in ~/.cache; empty: there is no such place.
 [[nodiscard]] std::string user_import_cache();
 

@@ -27,11 +27,6 @@ namespace {
 constexpr const char* kCadProgram = "halflit-import-cad";
 constexpr const char* kProtocol = "1";
 
-std::string variable(const char* name) {
-    const char* const value = std::getenv(name);
-    return value == nullptr ? "" : value;
-}
-
 bool is_program(const std::string& path) {
     platform::FileStatus status;
     return platform::status_of(path, status) == 0 && status.kind == platform::FileKind::file && (status.mode & 0111u) != 0;
@@ -42,8 +37,8 @@ std::string find_program(const std::string& name) {
     std::vector<std::string> folders;
     if (const std::string own = platform::own_folder(); !own.empty())
         for (const char* const place : {"", "/../bin", "/../libexec/halflit", "/../../libexec/halflit"}) folders.push_back(own + place);
-    const std::string path = variable("PATH");
-    for (std::string_view rest = path; !rest.empty();) {
+    const char* const path = std::getenv("PATH");
+    for (std::string_view rest = path == nullptr ? "" : path; !rest.empty();) {
         const std::string_view folder = rest.substr(0, rest.find(':'));
         rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
         if (platform::is_absolute(folder)) folders.emplace_back(folder);
@@ -134,8 +129,7 @@ LoadedScene import_by(const std::string& program, const std::vector<std::string>
 
 /// Those of the user's file that are for a file of this name.
 std::vector<Importer> configured_importers(std::string_view name) {
-    const std::string own = variable("XDG_CONFIG_HOME"), home = variable("HOME");
-    const std::string folder = platform::is_absolute(own) ? own : platform::is_absolute(home) ? home + "/.config" : "";
+    const std::string folder = user_folder("XDG_CONFIG_HOME", ".config");
     platform::FileStatus status;
     const std::string path = folder + "/halflit/importers";
     std::vector<Importer> importers;
@@ -184,10 +178,7 @@ std::optional<LoadedScene> read_by_importer(const ModelFile& file, const LoadOpt
 halflit::Result<halflit::Importer> halflit::Importer::from(const std::string& text) {
     if (!platform::can_run_children()) return fail(ErrorCode::usage, "importers cannot be run on this system");
     const std::size_t equals = text.find('=');
-    const auto trimmed = [](std::string_view part) {
-        const std::size_t begin = part.find_first_not_of(' ');
-        return begin == part.npos ? std::string() : std::string(part.substr(begin, part.find_last_not_of(' ') + 1 - begin));
-    };
+    const auto trimmed = [](std::string_view part) { return std::string(io::detail::Words(part).rest()); };
     const std::string extension = trimmed(text.substr(0, equals)), path = equals == text.npos ? "" : trimmed(text.substr(equals + 1));
     if (extension.size() < 2 || extension[0] != '.' || path.empty())
         return fail(ErrorCode::usage, fmt::format("expected .EXTENSION=PROGRAM, found '{}'", io::printable(text)));
