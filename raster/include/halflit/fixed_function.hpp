@@ -1,0 +1,150 @@
+// Pictures as OpenGL's fixed function makes them: light once a vertex, in codes, with textures, fog, shadow maps that are read without a
+// filter, one mirror and transparency in a given order. Simulators and viewers of the years before shaders draw so, and pictures that must
+// look like theirs need the same model. Nothing here is linear light: colours are codes / 255, and sums are held in [0, 1].
+#pragma once
+
+#include "halflit/error.hpp"
+#include "halflit/export.hpp"
+#include "halflit/mesh.hpp"
+#include "halflit/settings.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace halflit {
+
+/// A picture whose codes are filtered as they are, over levels that are made from codes too. Repeats in both directions; a cube has six
+/// faces of width x width, one after the other: +x -x +y -y +z -z, each as OpenGL lays it out.
+struct CodeTexture {
+    int width = 0, height = 0;      ///< texels; of a cube's face both are the same
+    bool cube = false;              ///< six faces, found by a direction
+    bool decodes_srgb = false;      ///< texels are decoded to linear numbers when they are read, as sRGB textures are
+    std::vector<std::uint8_t> rgb;  ///< three codes a texel; the first row is v = 0
+};
+
+/// How a surface looks. Colours are codes / 255.
+struct FixedMaterial {
+    Vec4f color{0.5f, 0.5f, 0.5f, 1.0f};  ///< what ambient and diffuse light is multiplied by; w: alpha
+    Vec3f emission{0, 0, 0};
+    float specular = 0.0f;    ///< the highlight's color, grey
+    float shininess = 0.0f;   ///< exponent of the highlight
+    int texture = -1;         ///< index of a CodeTexture; -1: none
+    bool generated = false;   ///< texture coordinates are `planes` times (x, y, z, 1) of the object; false: Mesh::uv0
+    Vec4f planes[3]{};        ///< for u, v and, of cubes, the third coordinate
+    bool unlit = false;       ///< its color alone counts, times Mesh::colors if the mesh has some
+};
+
+/// A mesh placed in the world.
+struct FixedItem {
+    int mesh = 0;              ///< index of a mesh
+    Mat4 world_from_object{};  ///< affine
+    FixedMaterial material;
+    std::uint32_t id = 0;          ///< what the plane of ids shows; items of one id are one object
+    bool flips_faces = false;      ///< the other side is culled
+    bool casts_shadow = true;      ///< with a light of its own sides: `flips_faces` does not count there
+    bool receives_shadow = true;   ///< false: it has the light of all lights
+    bool transparent = false;      ///< drawn after all others, without depth: see FixedFrame::items
+    bool mirrors = false;          ///< shows FixedFrame::mirror, to which its own color is added
+    bool in_mirror = true;         ///< is seen in the mirror
+};
+
+/// A light. Its terms are added as OpenGL adds those of its lights.
+struct FixedLight {
+    Vec3f position_ws{0, 0, 0};         ///< not of directional lights, but where their shadow map is seen from
+    Vec3f direction_ws{0, 0, -1};       ///< the way that the light goes
+    bool directional = false;           ///< otherwise it comes from position_ws
+    Vec3f ambient{0, 0, 0}, diffuse{0, 0, 0}, specular{0, 0, 0};
+    float attenuation[3] = {1, 0, 0};   ///< 1 / (a + b d + c d d) at the distance d
+    float cutoff_deg = 180.0f;          ///< half angle of the cone, 0 to 90, or 180: all directions
+    float exponent = 0.0f;              ///< power of the cosine from the cone's axis
+    /// Side of its shadow map, texels; 0: it casts none. What is in shadow has none of its light, the ambient part neither.
+    int shadow_size = 0;
+    float shadow_fov_deg = 90.0f;       ///< of the map's view; 0 to 180, not of directional lights
+    float shadow_half_width = 1.0f;     ///< of directional lights' maps, world units
+    float shadow_near = 0.1f, shadow_far = 100.0f;  ///< limits of the map's view, world units
+};
+
+/// Which sides cast shadows, and how far they are moved away from the light: factor times the depth's slope, and units of 2^-24.
+struct ShadowRule {
+    bool back_faces_alone = true;
+    float offset_factor = 0.0f, offset_units = 0.0f;
+};
+
+/// A camera as a position, axes and a frustum.
+struct FixedCamera {
+    Vec3f position_ws{0, 0, 0};
+    Vec3f forward_ws{0, 0, -1};  ///< any length
+    Vec3f up_ws{0, 1, 0};        ///< any length, not along forward_ws
+    /// The frustum at the distance near_z, world units.
+    float left = -1, right = 1, bottom = -1, top = 1;
+    float near_z = 1.0f, far_z = 100.0f;
+};
+
+/// A plane that mirrors what is on the side that its normal points to.
+struct FixedMirror {
+    Vec3f point_ws{0, 0, 0};
+    Vec3f normal_ws{0, 0, 1};   ///< length 1
+    float reflectance = 0.0f;   ///< colors in the mirror are multiplied by this, highlights not
+};
+
+/// Everything that one picture shows.
+struct FixedFrame {
+    FixedCamera camera;
+    /// Those that are not transparent in any order. Transparent ones in the order from front to back; consecutive ones of one id are one
+    /// object. They are blended in that order, and then once more, object by object, in the reverse order.
+    std::vector<FixedItem> items;
+    std::vector<FixedLight> lights;
+    Vec3f eye_ws{0, 0, 0};      ///< from where highlights are seen; usually the camera's position
+    float ambient = 0.0f;       ///< of all surfaces, beside the lights
+    bool culls_faces = true;    ///< false: both sides are drawn
+    bool blends_once = false;   ///< transparent items are added to what is behind, once
+    bool has_mirror = false;
+    FixedMirror mirror;
+    int sky = -1;                        ///< index of a cube; -1: black
+    Vec4f sky_planes[3]{};               ///< the cube's coordinates for a direction in the world
+    float fog_start = 0, fog_end = 0;    ///< distances along the view; equal: there is no fog
+    Vec3f fog_color{0, 0, 0};
+    float sky_distance = 0.0f;           ///< distance at which the sky is, for the fog
+    ShadowRule shadow;
+};
+
+/// Memory for a picture. A null pointer: not made, and where `rgb` is null nothing is lit. Row 0 is the top row, or the bottom row.
+struct FixedTarget {
+    int width = 0, height = 0;           ///< pixels
+    int samples = 1;                     ///< 1 or 4 a pixel, for rgb alone
+    bool bottom_up = false;
+    std::uint8_t* rgb = nullptr;         ///< three codes a pixel, rows one after the other
+    float* depth = nullptr;              ///< at the pixel's middle: 1 at the near plane, 0 at the far plane and where nothing is
+    std::uint32_t* ids = nullptr;        ///< FixedItem::id of what is nearest there; 0: nothing
+    bool transparent_planes = true;      ///< transparent items count in `ids` and `depth`
+};
+
+/// Meshes and textures that stay, and frames of them. One frame at a time; any number of renderers may draw at once.
+class FixedFunctionRenderer {
+public:
+    /// Fails (bad_input) for indices out of range, arrays of different lengths and textures of other sizes than they say.
+    [[nodiscard]] HALFLIT_API static Result<FixedFunctionRenderer> make(std::vector<Mesh> meshes, std::vector<CodeTexture> textures,
+                                                                        const Execution& execution = {});
+    HALFLIT_API ~FixedFunctionRenderer();
+    /// @{
+    /// One that was moved from may only be assigned to or destroyed.
+    HALFLIT_API FixedFunctionRenderer(FixedFunctionRenderer&&) noexcept;
+    HALFLIT_API FixedFunctionRenderer& operator=(FixedFunctionRenderer&&) noexcept;
+    /// @}
+
+    /// Replaces positions and normals of a mesh, as many as it has.
+    [[nodiscard]] HALFLIT_API Result<void> set_vertices(int mesh, std::span<const Vec3f> positions, std::span<const Vec3f> normals);
+
+    /// Draws a frame. Fails (bad_input) for indices out of range, (usage) for a picture or camera without a size.
+    [[nodiscard]] HALFLIT_API Result<void> render(const FixedFrame& frame, const FixedTarget& target, const Execution& execution = {});
+
+private:
+    struct Impl;
+    explicit FixedFunctionRenderer(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace halflit
