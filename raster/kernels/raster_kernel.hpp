@@ -23,7 +23,9 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 #include "raster/kernels/collect.hpp"
 #include "raster/kernels/cover_sweep.hpp"
 #include "raster/kernels/distances.hpp"
+#include "raster/kernels/fixed_function.hpp"
 #include "raster/kernels/interpolate.hpp"
+#include "raster/kernels/occlusion.hpp"
 #include "raster/kernels/project_splats.hpp"
 #include "raster/kernels/rasterize.hpp"
 #include "raster/kernels/transform.hpp"
@@ -35,5 +37,6 @@ extern const RasterKernels HALFLIT_RASTER_KERNELS;
 const RasterKernels HALFLIT_RASTER_KERNELS = {transform,   vertex_records, bin_triangles,    rasterize,      rasterize_depth,
                                               cover,       cover_layer,    cover_all,        draw_covered,   collect,
                                               interpolate, distances,      sweep_covers,     add_grid_terms, cover_ground,
-                                              shadow_row,  take_means,     shade_background, project_splats, blend_splats};
+                                              shadow_row,  take_means,     shade_background, project_splats, blend_splats,
+                                              fixed_vertices, code_texels, fixed_codes,     occlude};
 }  // namespace halflit::raster

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "halflit/isa.hpp"
+#include "raster/kernels/fixed_function_args.hpp"
 #include "sh/config.hpp"
 #include "shading/fragment_block.hpp"
 #include "shading/plan/sky_grid_plan.hpp"
@@ -379,6 +380,12 @@ struct RasterKernels {
     /// Adds `count` splats, the nearest first, to the square whose first pixel is given. list: numbers of records; remaining: splats of the
     /// square that follow. False: all blocks are finished.
     bool (*blend_splats)(const SplatRecord*, const std::uint32_t* list, int count, std::size_t remaining, int x_px, int y_px, SplatTile&);
+    void (*fixed_vertices)(const FixedVertexArgs&);
+    /// Of `count` fragments, padded to a multiple of 16.
+    void (*code_texels)(const CodeLevels&, const shading::FragmentBlock&, int count, TexelRows&);
+    void (*fixed_codes)(const CodeArgs&);
+    /// Marks the places of a tile that `count` triangles hide.
+    void (*occlude)(const TileRect&, const TriangleTable&, const std::uint32_t* ids, int count, const OcclusionPoints&);
 };
 
 [[nodiscard]] const RasterKernels& raster_kernels(Isa isa);

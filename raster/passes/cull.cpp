@@ -18,10 +18,12 @@ constexpr std::int64_t kMostVerticesAtOnce = std::int64_t{1} << 20;
 constexpr std::size_t kChunksOfBatch = 8, kLeastChunksOfBatch = 4;  ///< so that several threads have work
 constexpr std::int64_t kMostTileLists = 1 << 22;  ///< chunks times tiles of a view, for four chunks or more; an empty list takes 4 bytes
 
+bool is_mirrored(const View& view, const Mat4& world_from_object) { return (determinant3(world_from_object) < 0.0) != view.mirrored; }
+
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces, Topology topology) {
     // Half of the diagonal of a point's square, or of a line's end, is less than its side.
     const double margin_px = topology == Topology::triangles ? 0.0 : size_of(view, topology) / 256.0;
-    return {view, multiply_in_double(view.clip_from_world, world_from_object), determinant3(world_from_object) < 0.0, back_faces,
+    return {view, multiply_in_double(view.clip_from_world, world_from_object), is_mirrored(view, world_from_object), back_faces,
             margin_px};
 }
 
@@ -131,7 +133,7 @@ void ViewGeometry::list_draws(Executor& executor) {
         draw.group_base = group_count_;
         draw.cluster_base = cluster_count_;
         draw.triangle_base = triangle_base - triangles;
-        draw.mirrored = !draw.quads() && determinant3(instances[i].world_from_object) < 0.0;
+        draw.mirrored = !draw.quads() && is_mirrored(view_, instances[i].world_from_object);
         draw.few_vertices = scene_->mesh(draw.mesh).few_vertices;
         few_vertices_ |= draw.few_vertices;
         const Material& material = scene_->material(scene_->material_of(i));

@@ -41,10 +41,15 @@ VertexRecordArgs record_args(const Draw& draw, const Mesh& mesh, const Mat4& wor
 
 void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::MaterialPlan> materials, const RasterKernels& kernels,
                          Executor& executor) {
-    const std::span<const Draw> draws = geometry.draws();
     std::vector<shading::SlotMask> slots;
     for (const shading::MaterialPlan& material : materials) slots.push_back(material.slots);
     if (version_ == geometry.version() && slots == slots_) return;
+    make(geometry, std::move(slots), executor, [&](const Draw&, const VertexRecordArgs& args) { kernels.vertex_records(args); });
+    version_ = geometry.version();
+}
+
+void VertexRecords::make(const ViewGeometry& geometry, std::vector<shading::SlotMask> slots, Executor& executor, const Fill& fill) {
+    const std::span<const Draw> draws = geometry.draws();
     version_ = 0;  // invalid until all is done
     slots_ = std::move(slots);
 
@@ -86,12 +91,11 @@ void VertexRecords::make(const ViewGeometry& geometry, std::span<const shading::
                 }
                 args.begin = (group - draw->group_base) * kVertexGroup;
                 args.end = std::min(args.begin + kVertexGroup, draw->record_count);
-                kernels.vertex_records(args);
+                fill(*draw, args);
             }
         }
     });
     make_clip_records(geometry, executor);
-    version_ = geometry.version();
 }
 
 void VertexRecords::make_clip_records(const ViewGeometry& geometry, Executor& executor) {

@@ -5,6 +5,7 @@
 #include "raster/passes/view_geometry.hpp"
 #include "shading/plan/plan.hpp"
 
+#include <functional>
 #include <span>
 
 namespace halflit::raster {
@@ -15,6 +16,11 @@ public:
     /// those of the last call.
     void make(const ViewGeometry& geometry, std::span<const shading::MaterialPlan> materials, const RasterKernels& kernels,
               Executor& executor);
+
+    /// Makes records of other contents: fill writes those of a draw's vertices [args.begin, args.end), whose arrays and matrices args has.
+    /// slots: of each material, as above. Nothing is kept.
+    using Fill = std::function<void(const Draw& draw, const VertexRecordArgs& args)>;
+    void make(const ViewGeometry& geometry, std::vector<shading::SlotMask> slots, Executor& executor, const Fill& fill);
 
     /// Floats per record of that draw's vertices.
     [[nodiscard]] int stride(std::size_t draw) const { return strides_[draw]; }

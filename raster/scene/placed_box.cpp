@@ -61,4 +61,13 @@ Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4&
     return bounds;
 }
 
+Bounds rough_bounds(const Bounds& object, const Mat4& world_from_object) {
+    Bounds bounds;
+    if (object.empty) return bounds;
+    const PlacedBox box({object.min.x, object.min.y, object.min.z}, {object.max.x, object.max.y, object.max.z}, world_from_object);
+    bounds.add({static_cast<float>(box.low[0]), static_cast<float>(box.low[1]), static_cast<float>(box.low[2])});
+    bounds.add({static_cast<float>(box.high[0]), static_cast<float>(box.high[1]), static_cast<float>(box.high[2])});
+    return bounds;
+}
+
 }  // namespace halflit::raster

@@ -17,6 +17,9 @@ struct PlacedBox {
 /// vertices of clusters that may extend the box.
 [[nodiscard]] Bounds placed_bounds(const Mesh& mesh, const PreparedMesh& prepared, const Mat4& world_from_object);
 
+/// A box around the transformed box: larger than placed_bounds, and found without a look at vertices.
+[[nodiscard]] Bounds rough_bounds(const Bounds& object, const Mat4& world_from_object);
+
 /// Squared distance from a point to the box [low, high]; 0 inside.
 [[nodiscard]] inline double box_distance_squared(const double (&low)[3], const double (&high)[3], Vec3d p) {
     const double at[3] = {p.x, p.y, p.z};

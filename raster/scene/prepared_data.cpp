@@ -238,6 +238,36 @@ Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& exe
     });
 }
 
+Result<PreparedData> PreparedData::make_for_geometry(const Scene& scene, const Execution& execution) {
+    return guarded("preparing a scene", execution, [&]() -> Result<PreparedData> {
+        Executor executor;
+        executor.configure(execution);
+        PreparedData prepared;
+        prepared.scene_ = &scene;
+        prepared.meshes_.resize(scene.meshes.size());
+        std::vector<std::size_t> all(scene.meshes.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        if (auto ok = prepared.prepare_meshes(all, executor); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = prepared.place_instances(); !ok) return tl::unexpected<Error>(ok.error());
+        return prepared;
+    });
+}
+
+Result<void> PreparedData::place_instances() {
+    instance_bounds_.resize(scene_->instances.size());
+    bounds_ = {};
+    triangle_count_ = 0;
+    for (std::size_t i = 0; i < instance_bounds_.size(); ++i) {
+        if (auto ok = check_instance(i); !ok) return ok;
+        const Instance& instance = scene_->instances[i];
+        instance_bounds_[i] = rough_bounds(mesh(instance.mesh).bounds, instance.world_from_object);
+        bounds_.include(instance_bounds_[i]);
+        triangle_count_ += raster::triangle_count(source_mesh(instance.mesh));
+    }
+    revision_ = all_new_revisions();
+    return {};
+}
+
 Result<void> PreparedData::update(const SceneChanges& changes, const Execution& execution) {
     up_to_date_ = false;
     auto result = guarded("updating a scene", execution, [&]() -> Result<void> {

@@ -19,6 +19,7 @@ struct View {
     PointSizes point_sizes;  ///< of points, by their place; point_size is the largest. Empty: all have that
     /// Depths of lines are line_depth_scale * z + line_depth_offset (lift_lines).
     float line_depth_scale = 1.0f, line_depth_offset = 0.0f;
+    bool mirrored = false;  ///< clip_from_world mirrors, or the sides of all faces change places: fronts are left out instead of backs
 
     [[nodiscard]] int tile_count() const { return tiles_x * tiles_y; }
     [[nodiscard]] TileRect tile_rect(int tile) const {

@@ -37,18 +37,26 @@ struct FixedMaterial {
     bool unlit = false;       ///< its color alone counts, times Mesh::colors if the mesh has some
 };
 
+/// When an item is drawn.
+enum class FixedStage : std::uint8_t {
+    solid,        ///< opaque, lit and with shadows
+    backdrop,     ///< opaque, without shadows; not in mirrors, not in the planes
+    haze,         ///< blended once, after solid items and backdrops; not in mirrors, not in the planes
+    transparent,  ///< blended last, in the light of all lights, in the order of FixedFrame::items and once more in the reverse order
+};
+
 /// A mesh placed in the world.
 struct FixedItem {
     int mesh = 0;              ///< index of a mesh
     Mat4 world_from_object{};  ///< affine
     FixedMaterial material;
-    std::uint32_t id = 0;          ///< what the plane of ids shows; items of one id are one object
-    bool flips_faces = false;      ///< the other side is culled
-    bool casts_shadow = true;      ///< with a light of its own sides: `flips_faces` does not count there
-    bool receives_shadow = true;   ///< false: it has the light of all lights
-    bool transparent = false;      ///< drawn after all others, without depth: see FixedFrame::items
-    bool mirrors = false;          ///< shows FixedFrame::mirror, to which its own color is added
-    bool in_mirror = true;         ///< is seen in the mirror
+    FixedStage stage = FixedStage::solid;
+    std::uint32_t id = 0;       ///< what the plane of ids shows; items of one id are one object
+    bool both_sides = false;    ///< nothing of it is culled; of what casts shadows this does not count
+    bool casts_shadow = true;
+    bool mirrors = false;       ///< shows FixedFrame::mirror, to which its own color is added
+    bool in_mirror = true;      ///< is seen in the mirror
+    bool in_planes = true;      ///< is drawn where ids are
 };
 
 /// A light. Its terms are added as OpenGL adds those of its lights.
@@ -78,6 +86,7 @@ struct FixedCamera {
     Vec3f position_ws{0, 0, 0};
     Vec3f forward_ws{0, 0, -1};  ///< any length
     Vec3f up_ws{0, 1, 0};        ///< any length, not along forward_ws
+    bool parallel = false;       ///< an orthographic view: the frustum is a box
     /// The frustum at the distance near_z, world units.
     float left = -1, right = 1, bottom = -1, top = 1;
     float near_z = 1.0f, far_z = 100.0f;
@@ -93,21 +102,18 @@ struct FixedMirror {
 /// Everything that one picture shows.
 struct FixedFrame {
     FixedCamera camera;
-    /// Those that are not transparent in any order. Transparent ones in the order from front to back; consecutive ones of one id are one
-    /// object. They are blended in that order, and then once more, object by object, in the reverse order.
+    /// In any order but for haze, and transparent items: these from front to back, and consecutive ones of one id are one object.
     std::vector<FixedItem> items;
     std::vector<FixedLight> lights;
     Vec3f eye_ws{0, 0, 0};      ///< from where highlights are seen; usually the camera's position
     float ambient = 0.0f;       ///< of all surfaces, beside the lights
     bool culls_faces = true;    ///< false: both sides are drawn
-    bool blends_once = false;   ///< transparent items are added to what is behind, once
+    bool adds_layers = false;   ///< haze and transparent items are added to what is behind, once, instead of covering it
     bool has_mirror = false;
     FixedMirror mirror;
-    int sky = -1;                        ///< index of a cube; -1: black
-    Vec4f sky_planes[3]{};               ///< the cube's coordinates for a direction in the world
     float fog_start = 0, fog_end = 0;    ///< distances along the view; equal: there is no fog
     Vec3f fog_color{0, 0, 0};
-    float sky_distance = 0.0f;           ///< distance at which the sky is, for the fog
+    float line_width = 1.0f;             ///< pixels; lines have no light of their own
     ShadowRule shadow;
 };
 
@@ -120,6 +126,7 @@ struct FixedTarget {
     float* depth = nullptr;              ///< at the pixel's middle: 1 at the near plane, 0 at the far plane and where nothing is
     std::uint32_t* ids = nullptr;        ///< FixedItem::id of what is nearest there; 0: nothing
     bool transparent_planes = true;      ///< transparent items count in `ids` and `depth`
+    bool backdrop_depth = false;         ///< backdrops count in `depth`, and transparent items do not
 };
 
 /// Meshes and textures that stay, and frames of them. One frame at a time; any number of renderers may draw at once.
@@ -134,6 +141,9 @@ public:
     HALFLIT_API FixedFunctionRenderer(FixedFunctionRenderer&&) noexcept;
     HALFLIT_API FixedFunctionRenderer& operator=(FixedFunctionRenderer&&) noexcept;
     /// @}
+
+    /// Another one with the same meshes and textures, for another thread.
+    [[nodiscard]] HALFLIT_API Result<FixedFunctionRenderer> copy() const;
 
     /// Replaces positions and normals of a mesh, as many as it has.
     [[nodiscard]] HALFLIT_API Result<void> set_vertices(int mesh, std::span<const Vec3f> positions, std::span<const Vec3f> normals);

@@ -1,0 +1,274 @@
+// The steps of a fixed-function frame.
+#include "halflit/fixed_function.hpp"
+
+#include "raster/check_execution.hpp"
+#include "raster/detail/guarded.hpp"
+#include "raster/fixed/fixed_pass.hpp"
+#include "raster/fixed/projection.hpp"
+#include "raster/view/culling.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace halflit {
+
+using namespace raster;
+
+namespace {
+
+constexpr int kMostSide = 16384;  // of pictures and shadow maps: within the guard band
+
+/// Materials of instances: how their stages are drawn, and whether both sides are.
+enum Kind : int { kSolid, kSolidBoth, kBackdrop, kBackdropBoth, kLayer, kLayerBoth, kKinds };
+int kind_of(const FixedItem& item, bool culls) {
+    const int stage = item.stage == FixedStage::solid ? kSolid : item.stage == FixedStage::backdrop ? kBackdrop : kLayer;
+    return stage + (item.both_sides || !culls ? 1 : 0);
+}
+
+Result<void> check_textures(const std::vector<CodeTexture>& textures) {
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        const CodeTexture& t = textures[i];
+        const auto texels = static_cast<std::size_t>(std::max(t.width, 0)) * static_cast<std::size_t>(std::max(t.height, 0));
+        if (t.width < 1 || t.height < 1 || t.width > kMostSide || t.height > kMostSide || (t.cube && t.width != t.height) ||
+            t.rgb.size() != 3 * texels * (t.cube ? 6 : 1) || texels > (std::size_t{1} << 27))
+            return fail(ErrorCode::bad_input, "texture " + std::to_string(i) + ": its size and its codes do not agree");
+    }
+    return {};
+}
+
+Mat4 reflection(const FixedMirror& mirror) {
+    const Vec3f n = mirror.normal_ws;
+    const float distance = dot(n, mirror.point_ws);
+    Mat4 m;
+    m.c[0] = {1 - 2 * n.x * n.x, -2 * n.x * n.y, -2 * n.x * n.z, 0};
+    m.c[1] = {-2 * n.y * n.x, 1 - 2 * n.y * n.y, -2 * n.y * n.z, 0};
+    m.c[2] = {-2 * n.z * n.x, -2 * n.z * n.y, 1 - 2 * n.z * n.z, 0};
+    m.c[3] = {2 * distance * n.x, 2 * distance * n.y, 2 * distance * n.z, 1};
+    return m;
+}
+
+Frustum frustum_of(const FixedCamera& camera) {
+    return {camera.left, camera.right, camera.bottom, camera.top, camera.near_z, camera.far_z, camera.parallel};
+}
+
+/// Standard sample positions of graphics hardware in windows whose y points up.
+SamplePattern four_samples() {
+    SamplePattern pattern;
+    pattern.count = 4;
+    constexpr std::int16_t kPlaces[4][2] = {{-32, 96}, {96, 32}, {-96, -32}, {32, -96}};
+    for (int s = 0; s < 4; ++s) pattern.x[s] = kPlaces[s][0], pattern.y[s] = kPlaces[s][1];
+    return pattern;
+}
+
+}  // namespace
+
+struct FixedFunctionRenderer::Impl {
+    Scene scene;
+    std::vector<CodeTexture> sources;
+    std::vector<CodeLevelsData> textures;
+    std::optional<PreparedData> prepared;
+    Executor executor;
+    Pool<TileScratch> scratch;
+    FixedPass picture, mirrored;
+    ViewGeometry planes;
+    LightOcclusion occlusion;
+    SampleImage image, in_mirror;
+
+    Result<void> begin(const FixedFrame& frame);
+    Result<void> draw(const FixedFrame& frame, const FixedTarget& target, Isa isa);
+    template <class IsSeen>
+    Result<void> show(const FixedFrame& frame, const IsSeen& is_seen);
+    Result<void> draw_mirror(const FixedContext& context, const View& view, const Mat4& clip_from_camera, const Mat4& camera_from_world);
+};
+
+Result<void> FixedFunctionRenderer::Impl::begin(const FixedFrame& frame) {
+    for (std::size_t i = 0; i < frame.items.size(); ++i) {
+        const FixedMaterial& material = frame.items[i].material;
+        if (material.texture < -1 || (material.texture >= 0 && static_cast<std::size_t>(material.texture) >= textures.size()))
+            return fail(ErrorCode::bad_input, "item " + std::to_string(i) + " names texture " + std::to_string(material.texture) + " of " +
+                                                  std::to_string(textures.size()));
+    }
+    for (const FixedLight& light : frame.lights)
+        if (light.shadow_size != 0 && (light.shadow_size < 4 || light.shadow_size > kMostSide))
+            return fail(ErrorCode::bad_input, "a light's shadow map has " + std::to_string(light.shadow_size) + " texels on a side, not 4 to 16384");
+    scene.instances.resize(frame.items.size());
+    for (std::size_t i = 0; i < frame.items.size(); ++i) {
+        Instance& instance = scene.instances[i];
+        instance.mesh = frame.items[i].mesh;
+        instance.material = kind_of(frame.items[i], frame.culls_faces);
+        instance.world_from_object = frame.items[i].world_from_object;
+        instance.visible = true;
+    }
+    return prepared->place_instances();
+}
+
+/// Leaves the items visible for which is_seen is true.
+template <class IsSeen>
+Result<void> FixedFunctionRenderer::Impl::show(const FixedFrame& frame, const IsSeen& is_seen) {
+    for (std::size_t i = 0; i < frame.items.size(); ++i) scene.instances[i].visible = is_seen(frame.items[i]);
+    return {};
+}
+
+/// Draws the scene on the other side of the mirror, for the pixels that show it.
+Result<void> FixedFunctionRenderer::Impl::draw_mirror(const FixedContext& context, const View& view, const Mat4& clip_from_camera,
+                                                      const Mat4& camera_from_world) {
+    const FixedFrame& frame = context.frame;
+    const FixedMirror& mirror = frame.mirror;
+    const Mat4 reflected = multiply_in_double(camera_from_world, reflection(mirror));
+    View in = view;
+    in.clip_from_world = multiply_in_double(clip_from_camera, reflected);
+    // The mirror's plane takes the place of the near plane: clip z is w less a share of the distance from it, which never reaches w.
+    const Vec3f n = mirror.normal_ws;
+    const float offset = -dot(n, mirror.point_ws), row[4] = {n.x, n.y, n.z, offset};
+    const double wide = std::max({std::abs(double{frame.camera.left}), std::abs(double{frame.camera.right}), std::abs(double{frame.camera.top}),
+                                  std::abs(double{frame.camera.bottom})}) / frame.camera.near_z;
+    const double share = frame.camera.parallel ? 1e-6 : 0.25 / (1.0 + wide);
+    for (int k = 0; k < 4; ++k) in.clip_from_world.c[k].z = static_cast<float>(in.clip_from_world.c[k].w - share * double{row[k]});
+    in.mirrored = true;
+    set_region(in, picture.mirror_region());
+    (void)show(frame, [](const FixedItem& item) {
+        return item.in_mirror && !item.mirrors && (item.stage == FixedStage::solid || item.stage == FixedStage::transparent);
+    });
+    const float height = dot(n, frame.eye_ws) + offset;
+    VertexLight light(frame, reflected, frame.eye_ws - n * (2.0f * height), false, mirror.reflectance);
+    light.set_cubes(true);
+    if (auto ok = mirrored.shade(context, in, light, {}, nullptr); !ok) return ok;
+    mirrored.compose(context, nullptr, in_mirror);
+    return {};
+}
+
+Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const FixedTarget& target, Isa isa) {
+    if (auto ok = begin(frame); !ok) return ok;
+    const FixedContext context{frame, *prepared, textures, raster_kernels(isa), executor, scratch};
+    const Mat4 camera_from_world = view_from_world(frame.camera.position_ws, frame.camera.forward_ws, frame.camera.up_ws);
+    const Mat4 clip_from_camera = clip_from_view(frustum_of(frame.camera));
+    View view = window_view(multiply_in_double(clip_from_camera, camera_from_world), target.width, target.height);
+    view.line_width = static_cast<int>(frame.line_width * 256.0f);
+    const auto any = [&](const auto& is) { return std::any_of(frame.items.begin(), frame.items.end(), is); };
+
+    // Depth and ids are those of the picture's own triangles where the same items are drawn, once a pixel.
+    const bool has_planes = target.depth != nullptr || target.ids != nullptr;
+    const bool others = !target.backdrop_depth && any([&](const FixedItem& item) {
+        return !item.in_planes || (item.stage == FixedStage::transparent && target.transparent_planes);
+    });
+    const bool alone = has_planes && (target.rgb == nullptr || target.samples != 1 || others);
+    if (alone) {
+        for (int k = 0; k < kKinds; ++k) scene.materials[static_cast<std::size_t>(k)].alpha_mode = AlphaMode::opaque;
+        (void)show(frame, [&](const FixedItem& item) {
+            return item.in_planes && (item.stage == FixedStage::solid || (item.stage == FixedStage::transparent && target.transparent_planes));
+        });
+        auto drawn = draw_planes(context, view, planes, target);
+        for (int k = 0; k < kKinds; ++k)
+            scene.materials[static_cast<std::size_t>(k)].alpha_mode = k >= kLayer ? AlphaMode::blend : k >= kBackdrop ? AlphaMode::mask : AlphaMode::opaque;
+        if (!drawn) return drawn;
+    }
+    if (target.rgb == nullptr) return {};
+
+    if (target.samples == 4) view.samples = four_samples();
+    (void)show(frame, [](const FixedItem&) { return true; });
+    VertexLight light(frame, camera_from_world, frame.eye_ws, true, 1.0f);
+    light.set_cubes(any([&](const FixedItem& item) {
+        return item.material.texture >= 0 && textures[static_cast<std::size_t>(item.material.texture)].levels().cube;
+    }));
+    std::vector<LightMap> maps;
+    for (const std::size_t i : light.shadowed()) maps.emplace_back(frame.lights[i]);
+    if (auto ok = picture.shade(context, view, light, maps, has_planes && !alone ? &target : nullptr); !ok) return ok;
+
+    if (!maps.empty()) {
+        (void)show(frame, [](const FixedItem& item) {
+            return item.casts_shadow && (item.stage == FixedStage::solid || item.stage == FixedStage::transparent);
+        });
+        const auto sides = [&](bool both) {
+            for (const int k : {int{kSolidBoth}, int{kLayerBoth}}) scene.materials[static_cast<std::size_t>(k)].double_sided = both;
+        };
+        // All cast, as opaque surfaces; where one side does, of all items.
+        for (int k = 0; k < kKinds; ++k) scene.materials[static_cast<std::size_t>(k)].alpha_mode = AlphaMode::opaque;
+        if (frame.culls_faces && frame.shadow.back_faces_alone) sides(false);
+        Result<void> found{};
+        for (std::size_t i = 0; i < maps.size() && found; ++i)
+            found = picture.find_shadows(context, frame.shadow, static_cast<int>(i), maps[i], occlusion);
+        sides(true);
+        for (int k = 0; k < kKinds; ++k)
+            scene.materials[static_cast<std::size_t>(k)].alpha_mode = k >= kLayer ? AlphaMode::blend : k >= kBackdrop ? AlphaMode::mask : AlphaMode::opaque;
+        if (!found) return found;
+    }
+
+    const bool mirrors = frame.has_mirror && picture.mirror_region().width > 0;
+    if (mirrors)
+        if (auto ok = draw_mirror(context, view, clip_from_camera, camera_from_world); !ok) return ok;
+    picture.compose(context, mirrors ? &in_mirror : nullptr, image);
+
+    const auto samples = static_cast<std::uint32_t>(target.samples);
+    executor.run(target.height, [&](int y) {
+        const int row = target.bottom_up ? target.height - 1 - y : y;
+        std::uint8_t* to = target.rgb + 3 * static_cast<std::size_t>(row) * static_cast<std::size_t>(target.width);
+        const std::uint32_t* from = image.codes.data() + image.index(0, y);
+        for (int x = 0; x < target.width; ++x, to += 3, from += samples)
+            for (int c = 0; c < 3; ++c) {
+                std::uint32_t sum = samples / 2;
+                for (std::uint32_t s = 0; s < samples; ++s) sum += from[s] >> (8 * c) & 0xffu;
+                to[c] = static_cast<std::uint8_t>(sum / samples);
+            }
+    });
+    return {};
+}
+
+FixedFunctionRenderer::FixedFunctionRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+FixedFunctionRenderer::~FixedFunctionRenderer() = default;
+FixedFunctionRenderer::FixedFunctionRenderer(FixedFunctionRenderer&&) noexcept = default;
+FixedFunctionRenderer& FixedFunctionRenderer::operator=(FixedFunctionRenderer&&) noexcept = default;
+
+Result<FixedFunctionRenderer> FixedFunctionRenderer::make(std::vector<Mesh> meshes, std::vector<CodeTexture> textures,
+                                                          const Execution& execution) {
+    if (auto ok = check_textures(textures); !ok) return tl::unexpected<Error>(ok.error());
+    auto impl = std::make_unique<Impl>();
+    impl->scene.meshes = std::move(meshes);
+    for (Mesh& mesh : impl->scene.meshes) mesh.material = -1;
+    for (int k = 0; k < kKinds; ++k) {
+        Material material;
+        material.alpha_mode = k >= kLayer ? AlphaMode::blend : k >= kBackdrop ? AlphaMode::mask : AlphaMode::opaque;
+        material.double_sided = k % 2 == 1;
+        impl->scene.materials.push_back(material);
+    }
+    const Result<void> made = guarded("preparing textures", execution, [&]() -> Result<void> {
+        for (const CodeTexture& texture : textures) impl->textures.emplace_back(texture);
+        return {};
+    });
+    if (!made) return tl::unexpected<Error>(made.error());
+    impl->sources = std::move(textures);
+    auto prepared = PreparedData::make_for_geometry(impl->scene, execution);
+    if (!prepared) return tl::unexpected<Error>(prepared.error());
+    impl->prepared = std::move(*prepared);
+    return FixedFunctionRenderer(std::move(impl));
+}
+
+Result<FixedFunctionRenderer> FixedFunctionRenderer::copy() const { return make(impl_->scene.meshes, impl_->sources); }
+
+Result<void> FixedFunctionRenderer::set_vertices(int mesh, std::span<const Vec3f> positions, std::span<const Vec3f> normals) {
+    const auto index = static_cast<std::size_t>(mesh);
+    if (mesh < 0 || index >= impl_->scene.meshes.size()) return fail(ErrorCode::usage, "there is no mesh " + std::to_string(mesh));
+    Mesh& of = impl_->scene.meshes[index];
+    if (positions.size() != of.positions.size() || normals.size() != of.normals.size())
+        return fail(ErrorCode::usage, "mesh " + std::to_string(mesh) + " has " + std::to_string(of.positions.size()) + " positions and " +
+                                          std::to_string(of.normals.size()) + " normals");
+    std::copy(positions.begin(), positions.end(), of.positions.begin());
+    std::copy(normals.begin(), normals.end(), of.normals.begin());
+    return guarded("preparing a mesh", {}, [&] { return impl_->prepared->deform(index, impl_->executor); });
+}
+
+Result<void> FixedFunctionRenderer::render(const FixedFrame& frame, const FixedTarget& target, const Execution& execution) {
+    const auto isa = check_execution(execution);
+    if (!isa) return tl::unexpected<Error>(isa.error());
+    if (target.width < 1 || target.height < 1 || target.width > kMostSide || target.height > kMostSide)
+        return fail(ErrorCode::usage, "a picture has 1 to 16384 pixels on a side");
+    if (target.samples != 1 && target.samples != 4) return fail(ErrorCode::usage, "a pixel has 1 or 4 samples");
+    const FixedCamera& camera = frame.camera;
+    if (!(camera.near_z > 0.0f) || !(camera.far_z > camera.near_z) || !(camera.right > camera.left) || !(camera.top > camera.bottom))
+        return fail(ErrorCode::usage, "the camera's frustum has no size");
+    return guarded("drawing a frame", execution, [&] {
+        impl_->executor.configure(execution);
+        return impl_->draw(frame, target, *isa);
+    });
+}
+
+}  // namespace halflit

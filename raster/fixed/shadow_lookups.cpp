@@ -1,0 +1,120 @@
+#include "raster/fixed/shadow_lookups.hpp"
+
+#include "raster/fixed/projection.hpp"
+#include "raster/view/culling.hpp"
+#include "sh/trig.hpp"
+
+#include <algorithm>
+
+namespace halflit::raster {
+namespace {
+
+constexpr int kPadding = 16;
+constexpr float kFarAway = 2.0f;  ///< reversed depth that nothing is nearer than
+
+Mat4 clip_of(const FixedLight& light) {
+    const Vec3f d = light.direction_ws, across = cross(d, Vec3f{-1, 0, 0});
+    const Vec3f up = dot(across, across) > 0.01f ? across : cross(d, Vec3f{0, 1, 0});
+    Frustum frustum{};
+    frustum.parallel = light.directional;
+    frustum.near_z = light.shadow_near, frustum.far_z = light.shadow_far;
+    const SinCos half = sin_cos(light.shadow_fov_deg * (kPi / 360.0));
+    const double extent = light.directional ? double{light.shadow_half_width} : half.sin / half.cos * light.shadow_near;
+    frustum.left = frustum.bottom = -extent;
+    frustum.right = frustum.top = extent;
+    return multiply_in_double(clip_from_view(frustum), view_from_world(light.position_ws, d, up));
+}
+
+}  // namespace
+
+LightMap::LightMap(const FixedLight& light) : clip_from_world_(clip_of(light)), size_(static_cast<float>(light.shadow_size)) {
+    // A border of one texel stays empty, so that nothing beyond the map is in shadow.
+    Mat4 inside = clip_from_world_;
+    const float part = (size_ - 2.0f) / size_;
+    for (Vec4f& c : inside.c) c.x *= part, c.y *= part;
+    view_ = window_view(inside, light.shadow_size, light.shadow_size);
+}
+
+ShadowLookup LightMap::of(Vec3f p) const {
+    const Vec4f clip = ((clip_from_world_.c[0] * p.x + clip_from_world_.c[1] * p.y) + clip_from_world_.c[2] * p.z) + clip_from_world_.c[3];
+    const auto held = [](float x, float most) { return x > 0.0f ? (x < most ? x : most) : 0.0f; };
+    const float inv = 1.0f / clip.w, last = size_ - 1.0f;
+    const int x = static_cast<int>(held((clip.x * inv * 0.5f + 0.5f) * size_, last));
+    const int up = static_cast<int>(held((clip.y * inv * 0.5f + 0.5f) * size_, last));
+    return {x, static_cast<int>(last) - up, held(clip.z * inv, 1.0f), 0};
+}
+
+Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& map, const ShadowRule& rule,
+                                  std::span<const std::span<ShadowLookup>> groups, const RasterKernels& kernels, Executor& executor) {
+    // The part of the map, in whole tiles, that is asked for.
+    constexpr int kSide = kMaxTileSize;
+    int x0 = map.view().region.width, y0 = x0, x1 = -1, y1 = -1;
+    for (const std::span<ShadowLookup> group : groups)
+        for (const ShadowLookup& at : group) {
+            x0 = std::min(x0, at.x), x1 = std::max(x1, at.x);
+            y0 = std::min(y0, at.y), y1 = std::max(y1, at.y);
+        }
+    if (x1 < 0) return {};
+    View view = map.view();
+    x0 -= x0 % kSide, y0 -= y0 % kSide;
+    set_region(view, {x0, y0, std::min(x1 / kSide * kSide + kSide, view.region.width) - x0,
+                      std::min(y1 / kSide * kSide + kSide, view.region.height) - y0});
+    view.mirrored = rule.back_faces_alone;
+    geometry_.forget();
+    if (auto ok = geometry_.make(casters, view, kernels, executor); !ok) return ok;
+
+    // Lookups by tiles, without those of tiles where nothing is.
+    const auto tile_of = [&](const ShadowLookup& at) {
+        return static_cast<std::size_t>((at.y - y0) / kSide * view.tiles_x + (at.x - x0) / kSide);
+    };
+    const auto tiles = static_cast<std::size_t>(view.tile_count());
+    std::vector<std::uint8_t> empty(tiles);
+    for (std::size_t t = 0; t < tiles; ++t) empty[t] = geometry_.tile_is_empty(static_cast<int>(t)) ? 1 : 0;
+    first_.assign(tiles + 1, 0);
+    for (const std::span<ShadowLookup> group : groups)
+        for (const ShadowLookup& at : group)
+            if (const std::size_t t = tile_of(at); !empty[t]) ++first_[t + 1];
+    std::vector<std::uint32_t> next(tiles), counts(tiles);
+    for (std::size_t t = 0; t < tiles; ++t) {
+        counts[t] = first_[t + 1];
+        first_[t + 1] = first_[t] + (counts[t] + kPadding - 1) / kPadding * kPadding;
+        next[t] = first_[t];
+    }
+    const std::size_t size = first_[tiles];
+    x_.assign(size, 0), y_.assign(size, 0), hidden_.assign(size, 0), z_.assign(size, kFarAway);
+    place_.clear();
+    for (const std::span<ShadowLookup> group : groups)
+        for (const ShadowLookup& at : group) {
+            const std::size_t t = tile_of(at);
+            place_.push_back(empty[t] ? ~0u : next[t]);
+            if (empty[t]) continue;
+            const std::uint32_t i = next[t]++;
+            x_[i] = (at.x - x0) % kSide, y_[i] = (at.y - y0) % kSide, z_[i] = at.z;
+        }
+    std::vector<int> asked;
+    for (std::size_t t = 0; t < tiles; ++t)
+        if (counts[t] > 0) asked.push_back(static_cast<int>(t));
+    executor.run(static_cast<int>(asked.size()), [&](int task) {
+        const int tile = asked[static_cast<std::size_t>(task)];
+        const std::uint32_t at = first_[static_cast<std::size_t>(tile)];
+        const OcclusionPoints points{x_.data() + at, y_.data() + at, z_.data() + at, static_cast<int>(first_[static_cast<std::size_t>(tile) + 1] - at),
+                                     rule.offset_factor, rule.offset_units * (1.0f / 16777216.0f), hidden_.data() + at};
+        std::vector<std::uint32_t> scratch, ids;
+        for (std::size_t c = 0; c < geometry_.chunks().size(); ++c) {
+            const std::span<const std::uint32_t> list = geometry_.tile_list(c, tile, scratch);
+            ids.clear();
+            for (const std::uint32_t record : list) ids.push_back(geometry_.source(c).id_base + record);
+            if (!ids.empty())
+                kernels.occlude(view.tile_rect(tile), geometry_.table(), ids.data(), static_cast<int>(ids.size()), points);
+        }
+    });
+    std::size_t i = 0;
+    for (const std::span<ShadowLookup> group : groups)
+        for (ShadowLookup& at : group) {
+            const std::uint32_t place = place_[i++];
+            at.hidden = place == ~0u ? 0 : hidden_[place];
+        }
+    return {};
+}
+
+}  // namespace halflit::raster

@@ -1,0 +1,77 @@
+// What the kernels of fixed-function pictures read and write (kernels/fixed_function.hpp, kernels/occlusion.hpp). Colours are codes / 255.
+#pragma once
+
+#include "shading/fragment_block.hpp"
+
+#include <cstdint>
+
+namespace halflit::raster {
+
+/// A light on a material: its colours are products of both.
+struct FixedLightTerms {
+    float place[3];  ///< the light's position, or the way to it, of length 1
+    bool directional;
+    float axis[3];     ///< of the cone, the way that the light goes, length 1
+    float cos_cutoff;  ///< below -1: no cone
+    float exponent;
+    float attenuation[3];
+    float ambient[3], diffuse[3], specular[3];
+};
+
+/// Light at vertices. Records of `count` vertices come in, as vertex_records writes those of the slots for position and first coordinates,
+/// and of colours where unlit; whole vectors are read.
+struct FixedVertexArgs {
+    const float* raw;
+    int raw_stride, count;
+    float* out;  ///< records of `stride` floats; whole vectors are written
+    int stride;
+    float eye[3];
+    float color[4];  ///< what there is without lights, and alpha
+    float shininess;
+    const FixedLightTerms* lights;
+    int light_count;
+    bool unlit;     ///< `color` times the vertex colour
+    bool separate;  ///< a group of four floats for each light; otherwise the lights are added to `color`, and these are written:
+    float depth[4];      ///< slot 0: position and the distance along the view, this row times (x, y, z, 1); slot 1: nothing, and coordinates,
+    bool generated;      ///< which are those of the mesh, or
+    float planes[3][4];  ///< these rows times (x, y, z, 1) of the world; slot 2: colour and alpha
+    bool third;          ///< slot 4: the third coordinate
+};
+
+inline constexpr int kMostLevels = 16;
+
+/// A texture's levels. A texel is red | green << 8 | blue << 16. Faces of cubes have a border of one texel, which shows what is beside them.
+struct CodeLevels {
+    const std::int32_t* texels;
+    const float* decoded;  ///< numbers of codes 0 to 255
+    int count;             ///< of levels
+    bool cube;
+    std::int32_t first[kMostLevels], width[kMostLevels], height[kMostLevels];  ///< number of a level's first texel, sizes without borders
+};
+
+/// Colours of textures at fragments.
+struct TexelRows {
+    alignas(64) float rgb[3][shading::kBlockSize];
+};
+
+/// Colours of fragments as codes: light times texture, with fog.
+struct CodeArgs {
+    const float* light[4];            ///< rows; [3]: alpha
+    const TexelRows* texels;          ///< null: no texture
+    const float* depth;               ///< distances along the view; null: no fog
+    float fog_end, fog_scale;         ///< share of the colour: (fog_end - depth) fog_scale
+    float fog_color[3];
+    int count;
+    std::uint32_t* codes;  ///< red | green << 8 | blue << 16 | alpha << 24; whole vectors are written
+};
+
+/// Places in a light's view, at middles of texels, in a tile of it.
+struct OcclusionPoints {
+    const std::int32_t *x, *y;  ///< pixels, from the tile's first one
+    const float* z;             ///< reversed depth
+    int count;                  ///< arrays are padded to a multiple of 16 by places of depth 2
+    float offset_factor, offset_units;  ///< depths of triangles are moved away from the light by factor times the slope, and this
+    std::int32_t* hidden;               ///< set to -1 where a triangle is nearer
+};
+
+}  // namespace halflit::raster
