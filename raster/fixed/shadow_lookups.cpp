@@ -46,8 +46,7 @@ ShadowLookup LightMap::of(Vec3f p) const {
 
 Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& map, const ShadowRule& rule,
                                   std::span<const std::span<ShadowLookup>> groups, const RasterKernels& kernels, Executor& executor) {
-    // The part of the map, in whole tiles, that is asked for.
-    constexpr int kSide = kMaxTileSize;
+    // The part of the map that is asked for.
     int x0 = map.view().region.width, y0 = x0, x1 = -1, y1 = -1;
     for (const std::span<ShadowLookup> group : groups)
         for (const ShadowLookup& at : group) {
@@ -56,27 +55,28 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
         }
     if (x1 < 0) return {};
     View view = map.view();
-    x0 -= x0 % kSide, y0 -= y0 % kSide;
-    set_region(view, {x0, y0, std::min(x1 / kSide * kSide + kSide, view.region.width) - x0,
-                      std::min(y1 / kSide * kSide + kSide, view.region.height) - y0});
     view.mirrored = rule.back_faces_alone;
-    geometry_.forget();
-    if (auto ok = geometry_.make(casters, view, kernels, executor); !ok) return ok;
-
-    // Lookups by tiles, without those of tiles where nothing is.
+    // Small tiles, so that most triangles touch none that is asked for, but not too many.
+    constexpr int kMostTiles = 1 << 13;
+    int side = 16;
+    while (side < kMaxTileSize && ((x1 - x0) / side + 1) * ((y1 - y0) / side + 1) > kMostTiles) side *= 2;
+    view.tile_size = side;
+    set_region(view, {x0, y0, x1 - x0 + 1, y1 - y0 + 1});
     const auto tile_of = [&](const ShadowLookup& at) {
-        return static_cast<std::size_t>((at.y - y0) / kSide * view.tiles_x + (at.x - x0) / kSide);
+        return static_cast<std::size_t>((at.y - y0) / side * view.tiles_x + (at.x - x0) / side);
     };
     const auto tiles = static_cast<std::size_t>(view.tile_count());
-    std::vector<std::uint8_t> empty(tiles);
-    for (std::size_t t = 0; t < tiles; ++t) empty[t] = geometry_.tile_is_empty(static_cast<int>(t)) ? 1 : 0;
-    first_.assign(tiles + 1, 0);
-    for (const std::span<ShadowLookup> group : groups)
-        for (const ShadowLookup& at : group)
-            if (const std::size_t t = tile_of(at); !empty[t]) ++first_[t + 1];
     std::vector<std::uint32_t> next(tiles), counts(tiles);
+    for (const std::span<ShadowLookup> group : groups)
+        for (const ShadowLookup& at : group) ++counts[tile_of(at)];
+    std::vector<std::uint8_t> wanted(tiles);
+    for (std::size_t t = 0; t < tiles; ++t) wanted[t] = counts[t] > 0 ? 1 : 0;
+    if (auto ok = geometry_.make_for_tiles(casters, view, wanted, kernels, executor); !ok) return ok;
+
+    // Lookups by tiles, without those of tiles where nothing is.
+    first_.assign(tiles + 1, 0);
     for (std::size_t t = 0; t < tiles; ++t) {
-        counts[t] = first_[t + 1];
+        if (counts[t] > 0 && geometry_.tile_is_empty(static_cast<int>(t))) counts[t] = 0;
         first_[t + 1] = first_[t] + (counts[t] + kPadding - 1) / kPadding * kPadding;
         next[t] = first_[t];
     }
@@ -86,10 +86,10 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     for (const std::span<ShadowLookup> group : groups)
         for (const ShadowLookup& at : group) {
             const std::size_t t = tile_of(at);
-            place_.push_back(empty[t] ? ~0u : next[t]);
-            if (empty[t]) continue;
+            place_.push_back(counts[t] == 0 ? ~0u : next[t]);
+            if (counts[t] == 0) continue;
             const std::uint32_t i = next[t]++;
-            x_[i] = (at.x - x0) % kSide, y_[i] = (at.y - y0) % kSide, z_[i] = at.z;
+            x_[i] = (at.x - x0) % side, y_[i] = (at.y - y0) % side, z_[i] = at.z;
         }
     std::vector<int> asked;
     for (std::size_t t = 0; t < tiles; ++t)

@@ -70,6 +70,16 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     return {};
 }
 
+Result<void> ViewGeometry::make_for_tiles(const PreparedData& scene, const View& view, std::span<const std::uint8_t> wanted,
+                                          const RasterKernels& kernels, Executor& executor) {
+    forget();
+    wanted_ = wanted;
+    auto made = make(scene, view, kernels, executor);
+    wanted_ = {};
+    forget();
+    return made;
+}
+
 /// Gives the used vertices of all chunks one numbering, that of the view, and moves them to its arrays.
 Result<void> ViewGeometry::number_used_vertices(Executor& executor) {
     std::vector<std::int64_t> bases;
