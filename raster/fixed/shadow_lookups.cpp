@@ -67,11 +67,15 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     };
     const auto tiles = static_cast<std::size_t>(view.tile_count());
     std::vector<std::uint32_t> next(tiles), counts(tiles);
+    std::vector<float> farthest(tiles, kFarAway);
+    const bool moved = rule.offset_factor != 0.0f || rule.offset_units != 0.0f;  // triangles may be nearer than their corners
     for (const std::span<ShadowLookup> group : groups)
-        for (const ShadowLookup& at : group) ++counts[tile_of(at)];
-    std::vector<std::uint8_t> wanted(tiles);
-    for (std::size_t t = 0; t < tiles; ++t) wanted[t] = counts[t] > 0 ? 1 : 0;
-    if (auto ok = geometry_.make_for_tiles(casters, view, wanted, kernels, executor); !ok) return ok;
+        for (const ShadowLookup& at : group) {
+            const std::size_t t = tile_of(at);
+            ++counts[t];
+            farthest[t] = std::min(farthest[t], moved ? -1.0f : at.z);
+        }
+    if (auto ok = geometry_.make_before(casters, view, farthest, kernels, executor); !ok) return ok;
 
     // Lookups by tiles, without those of tiles where nothing is.
     first_.assign(tiles + 1, 0);

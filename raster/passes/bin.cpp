@@ -23,7 +23,7 @@ struct BinInput {
     const ScreenVertex* screen;
     const std::uint8_t* outcodes;
     std::uint8_t* groups_drawn;
-    std::span<const std::uint8_t> wanted;  ///< of each tile: 0: its triangles are not needed; empty: all are
+    std::span<const float> behind;  ///< ViewGeometry::make_before()'s; empty: all triangles are needed
     bool numbered;   ///< keep each record's submission number
     bool only_used;  ///< keep only the vertices that triangles use
     const RasterKernels& kernels;
@@ -123,7 +123,6 @@ private:
         const bool swap = (binned.swap >> i & 1) != 0, back = (binned.back >> i & 1) != 0;
         const std::uint32_t v[3] = {source.corner(0), source.corner(swap ? 2 : 1), source.corner(swap ? 1 : 2)};
         const TileGrid::Tiles tiles{binned.tile_x0[i], binned.tile_x1[i], binned.tile_y0[i], binned.tile_y1[i]};
-        if (!is_wanted(tiles)) return;
         add_record(v, in_.screen[v[0]], in_.screen[v[1]], in_.screen[v[2]], back, tiles, source);
     }
 
@@ -231,7 +230,8 @@ private:
     /// v, a, b, c: in the order of positive area.
     void add_record(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, bool back,
                     const TileGrid::Tiles& tiles, const Source& source) {
-        if (!is_wanted(tiles)) return;
+        const float nearest = in_.behind.empty() ? 0.0f : std::max({a.z, b.z, c.z});
+        if (!in_.behind.empty() && !is_needed(tiles, nearest)) return;
         const bool round = is_round(a, b, c, source);
         if (round && source.triangle % 2 != 0) return;  // the point's first triangle stands for all of it
         if (is_hidden_by_last(a, b, c, source.draw)) return;
@@ -249,7 +249,7 @@ private:
 
         if (!chunk_.listed) return;
         const auto list = [&](int tile) {
-            if (is_wanted(tile)) chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record);
+            if (is_needed(tile, nearest)) chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record);
         };
         if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) {
             list(grid_.number(tiles.x0, tiles.y0));
@@ -262,12 +262,12 @@ private:
         }
     }
 
-    [[nodiscard]] bool is_wanted(int tile) const { return in_.wanted.empty() || in_.wanted[static_cast<std::size_t>(tile)] != 0; }
-    [[nodiscard]] bool is_wanted(const TileGrid::Tiles& tiles) const {
-        if (in_.wanted.empty()) return true;
+    /// A triangle whose nearest corner has depth z.
+    [[nodiscard]] bool is_needed(int tile, float z) const { return in_.behind.empty() || z > in_.behind[static_cast<std::size_t>(tile)]; }
+    [[nodiscard]] bool is_needed(const TileGrid::Tiles& tiles, float z) const {
         for (int y = tiles.y0; y <= tiles.y1; ++y)
             for (int x = tiles.x0; x <= tiles.x1; ++x)
-                if (is_wanted(grid_.number(x, y))) return true;
+                if (is_needed(grid_.number(x, y), z)) return true;
         return false;
     }
 
@@ -336,7 +336,7 @@ private:
 
 void ViewGeometry::bin(const Batch& batch, const RasterKernels& kernels, Executor& executor) {
     const BinInput input{
-        *scene_, view_,     draws_,  screen_.data(), outcodes_.data(), groups_drawn_.data(), wanted_, numbered_, has_only_used_vertices(),
+        *scene_, view_,     draws_,  screen_.data(), outcodes_.data(), groups_drawn_.data(), behind_, numbered_, has_only_used_vertices(),
         kernels, executor.stop()};
     executor.run(static_cast<int>(batch.end_chunk - batch.first_chunk),
                  [&](int i) { ChunkBuilder(input, *chunks_[batch.first_chunk + static_cast<std::size_t>(i)]).build(); });

@@ -70,12 +70,12 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     return {};
 }
 
-Result<void> ViewGeometry::make_for_tiles(const PreparedData& scene, const View& view, std::span<const std::uint8_t> wanted,
-                                          const RasterKernels& kernels, Executor& executor) {
+Result<void> ViewGeometry::make_before(const PreparedData& scene, const View& view, std::span<const float> behind,
+                                       const RasterKernels& kernels, Executor& executor) {
     forget();
-    wanted_ = wanted;
+    behind_ = behind;
     auto made = make(scene, view, kernels, executor);
-    wanted_ = {};
+    behind_ = {};
     forget();
     return made;
 }

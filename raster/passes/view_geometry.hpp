@@ -116,9 +116,9 @@ public:
     /// Runs the passes, unless scene and view are those of the last call. Fails if there are more vertices or triangles than can be
     /// numbered. numbered: keep each record's submission number, for triangle_of() and has_coplanar().
     Result<void> make(const PreparedData& scene, const View& view, const RasterKernels& kernels, Executor& executor, bool numbered = false);
-    /// The same anew, for some tiles of the view alone: wanted has a number for each, 0 for those whose triangles are not needed.
-    Result<void> make_for_tiles(const PreparedData& scene, const View& view, std::span<const std::uint8_t> wanted, const RasterKernels& kernels,
-                                Executor& executor);
+    /// The same anew, without triangles that are nowhere nearer than a tile's reversed depth in `behind`; above 1: it needs none.
+    Result<void> make_before(const PreparedData& scene, const View& view, std::span<const float> behind, const RasterKernels& kernels,
+                             Executor& executor);
     /// Makes the next make() run the passes.
     void forget() { revision_ = {}; }
 
@@ -206,7 +206,7 @@ private:
     SceneRevision revision_;
     View view_;
     bool numbered_ = false;
-    std::span<const std::uint8_t> wanted_;  ///< while a view is made for some tiles
+    std::span<const float> behind_;  ///< while make_before() runs
     std::uint64_t version_ = 0;
     Times times_ms_;
 
