@@ -24,6 +24,7 @@ set(subfolders
     "raster/geometry/=raster/((view|passes|choice|explain|built_in|kernels)/|renderer|frame_plan)"
     "raster/view/=raster/((passes|choice|explain|built_in)/|renderer|frame_plan)"
     "raster/passes/=raster/((choice|explain|built_in)/|renderer)"
+    "raster/fixed/=raster/((choice|explain|built_in)/|renderer|frame_plan)"
     "raster/choice/=raster/((passes|explain|kernels)/|renderer|frame_plan)"
     "raster/explain/=raster/((geometry|passes|choice|built_in|kernels)/|renderer|frame_plan)"
     "raster/built_in/=raster/((geometry|view|passes|choice|explain|kernels)/|renderer|frame_plan)"
