@@ -113,6 +113,41 @@ STRUCTS = {
         size_t size; double codes, asked_percent; double percent; int32_t probes, outside; int32_t samples, anisotropy,
         shadow_size; int32_t reserved;
 """,
+    "halflit_mujoco_layout": """
+        size_t size; int32_t geom_size; int32_t geom_type, geom_dataid, geom_objtype, geom_objid, geom_texid, geom_texuniform,
+        geom_matid, geom_texcoord, geom_segid; int32_t geom_texrepeat, geom_scale, geom_pos, geom_mat, geom_rgba; int32_t
+        geom_emission, geom_specular, geom_shininess, geom_reflectance, geom_modelrbound; int32_t light_size; int32_t light_pos,
+        light_dir, light_attenuation, light_cutoff, light_exponent; int32_t light_ambient, light_diffuse, light_specular; int32_t
+        light_headlight, light_directional, light_castshadow; int32_t light_type; int32_t camera_size; int32_t camera_pos,
+        camera_forward, camera_up, camera_center, camera_width; int32_t camera_bottom, camera_top, camera_near, camera_far;
+        int32_t camera_orthographic; int32_t type_skin, type_flex, type_linebox, type_triangle;
+""",
+    "halflit_mujoco_model": """
+        size_t size; const halflit_mujoco_layout* layout; double extent; float znear, zfar, shadowclip, shadowscale, fogstart,
+        fogend, haze; float fog_rgba[4], haze_rgba[4]; float linewidth; int32_t shadowsize, numslices, numstacks, numquads;
+        int32_t ngeom, nmat, nmesh, nmeshvert, nmeshnormal, nmeshtexcoord, nmeshface, nmeshgraph, nhfield, nhfielddata, ntex;
+        int32_t nskin, nskinvert, nskintexvert, nskinface, nflex; uint64_t ntexdata; const int32_t* geom_type; const int32_t*
+        geom_matid; const double* geom_size; const int32_t* mat_texid; const uint8_t* mat_texuniform; const float* mat_texrepeat;
+        const int32_t* mesh_vertadr; const int32_t* mesh_vertnum; const int32_t* mesh_normaladr; const int32_t* mesh_texcoordadr;
+        const int32_t* mesh_faceadr; const int32_t* mesh_facenum; const int32_t* mesh_graphadr; const float* mesh_vert; const
+        float* mesh_normal; const float* mesh_texcoord; const int32_t* mesh_face; const int32_t* mesh_facenormal; const int32_t*
+        mesh_facetexcoord; const int32_t* mesh_graph; const double* hfield_size; const int32_t* hfield_nrow; const int32_t*
+        hfield_ncol; const int32_t* hfield_adr; const float* hfield_data; const int32_t* tex_type; const int32_t* tex_width; const
+        int32_t* tex_height; const int32_t* tex_nchannel; const int32_t* tex_colorspace; const int64_t* tex_adr; const uint8_t*
+        tex_data; const int32_t* skin_vertadr; const int32_t* skin_vertnum; const int32_t* skin_texcoordadr; const int32_t*
+        skin_faceadr; const int32_t* skin_facenum; const float* skin_texcoord; const int32_t* skin_face; const int32_t*
+        flex_facenum;
+""",
+    "halflit_mujoco_scene": """
+        size_t size; const void* geoms; const void* lights; const void* camera; const uint8_t* flags; const float* skinvert; const
+        float* skinnormal; const int32_t* flexfaceused; const float* flexface; const float* flexnormal; const float* flextexcoord;
+        int32_t ngeom, nlight; int32_t enabletransform; float translate[3], rotate[4], scale; int32_t reserved;
+""",
+    "halflit_mujoco_picture": """
+        size_t size; const halflit_mujoco_scene* scene; const void* camera; const uint8_t* flags; uint8_t* rgb; float* depth;
+        int32_t* segid; int32_t* object; int32_t width, height; int32_t samples; int32_t bottom_up; int32_t depth_unit; int32_t
+        depth_pass;
+""",
 }
 CONSTANTS = {
     "HALFLIT_OK": 0,
@@ -199,6 +234,10 @@ CONSTANTS = {
     "HALFLIT_FORMAT_BGRA8_PREMULTIPLIED": 3,
     "HALFLIT_FORMAT_RGBA_F32": 4,
     "HALFLIT_FORMAT_RGBA_F32_PREMULTIPLIED": 5,
+    "HALFLIT_MUJOCO_DEPTH_WINDOW": 0,
+    "HALFLIT_MUJOCO_DEPTH_DISTANCE": 1,
+    "HALFLIT_MUJOCO_PASS_SEGMENT": 0,
+    "HALFLIT_MUJOCO_PASS_COLOR": 1,
 }
 FUNCTIONS = """
 const char* halflit_version(void);
@@ -305,4 +344,11 @@ const char* halflit_answer_notes(const halflit_answer* answer);
 int32_t halflit_answer_is_good(const halflit_answer* answer);
 const void* halflit_answer_picture(const halflit_answer* answer, int32_t* width, int32_t* height);
 void halflit_answer_destroy(halflit_answer* answer);
+int32_t halflit_mujoco_layout_init(halflit_mujoco_layout* layout, size_t size);
+int32_t halflit_mujoco_model_init(halflit_mujoco_model* model, size_t size);
+int32_t halflit_mujoco_scene_init(halflit_mujoco_scene* scene, size_t size);
+int32_t halflit_mujoco_picture_init(halflit_mujoco_picture* picture, size_t size);
+int32_t halflit_mujoco_create(const halflit_mujoco_model* model, const char* look, const halflit_execution* execution, halflit_mujoco** mujoco);
+int32_t halflit_mujoco_render(halflit_mujoco* mujoco, const halflit_mujoco_picture* pictures, int32_t count);
+void halflit_mujoco_destroy(halflit_mujoco* mujoco);
 """

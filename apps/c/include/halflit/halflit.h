@@ -977,6 +977,144 @@ HALFLIT_C_API const void* halflit_answer_picture(const halflit_answer* answer, i
 /// Frees an answer; null is none.
 HALFLIT_C_API void halflit_answer_destroy(halflit_answer* answer);
 
+// ---- MuJoCo: a simulator's pictures from its own arrays -----------------------------------------------------------------
+
+/// Draws what the classic renderer of MuJoCo draws, from a model's arrays and the arrays of scenes. It keeps shapes and textures. Members
+/// below that have the name of a member of mjModel, mjvScene, mjvGeom, mjvLight or mjvGLCamera mean what that one means.
+typedef struct halflit_mujoco halflit_mujoco;
+
+/// Where the members of mjvGeom, mjvLight and mjvGLCamera are in memory, in bytes from the start of the struct, so that the arrays of any
+/// version of MuJoCo are read as they are. -1: that version has no such member. Defaults: MuJoCo 2.2.2 on 64-bit systems.
+typedef struct halflit_mujoco_layout {
+    size_t size;
+    int32_t geom_size;  ///< bytes of a mjvGeom
+    int32_t geom_type, geom_dataid, geom_objtype, geom_objid, geom_texid, geom_texuniform, geom_matid, geom_texcoord, geom_segid;  ///< int
+    int32_t geom_texrepeat, geom_scale, geom_pos, geom_mat, geom_rgba;                         ///< float; geom_scale is mjvGeom.size
+    int32_t geom_emission, geom_specular, geom_shininess, geom_reflectance, geom_modelrbound;  ///< float
+    int32_t light_size;                                                                        ///< bytes of a mjvLight
+    int32_t light_pos, light_dir, light_attenuation, light_cutoff, light_exponent;             ///< float
+    int32_t light_ambient, light_diffuse, light_specular;                                      ///< float
+    int32_t light_headlight, light_directional, light_castshadow;                              ///< mjtByte
+    int32_t light_type;   ///< int, mjtLightType, in place of light_directional: 0 spot, 1 directional; others give no light
+    int32_t camera_size;  ///< bytes of a mjvGLCamera
+    int32_t camera_pos, camera_forward, camera_up, camera_center, camera_width;  ///< float; center and width are frustum_center and so on
+    int32_t camera_bottom, camera_top, camera_near, camera_far;                  ///< float
+    int32_t camera_orthographic;                                                 ///< int
+    /// Numbers of mjtGeom that differ among versions; -1: there is none.
+    int32_t type_skin, type_flex, type_linebox, type_triangle;
+} halflit_mujoco_layout;
+HALFLIT_C_API int32_t halflit_mujoco_layout_init(halflit_mujoco_layout* layout, size_t size);
+
+/// A model's arrays, which are copied. n followed by a name: number of these, as in mjModel. An array whose number is 0 may be null.
+typedef struct halflit_mujoco_model {
+    size_t size;
+    const halflit_mujoco_layout* layout;                                 ///< null: the defaults
+    double extent;                                                       ///< stat.extent
+    float znear, zfar, shadowclip, shadowscale, fogstart, fogend, haze;  ///< vis.map
+    float fog_rgba[4], haze_rgba[4];                                     ///< vis.rgba.fog, vis.rgba.haze
+    float linewidth;                                                     ///< vis.global
+    int32_t shadowsize, numslices, numstacks, numquads;                  ///< vis.quality
+    int32_t ngeom, nmat, nmesh, nmeshvert, nmeshnormal, nmeshtexcoord, nmeshface, nmeshgraph, nhfield, nhfielddata, ntex;
+    int32_t nskin, nskinvert, nskintexvert, nskinface, nflex;
+    uint64_t ntexdata;
+    const int32_t* geom_type;
+    const int32_t* geom_matid;
+    const double* geom_size;
+    const int32_t* mat_texid;  ///< of each material, the texture of its colour; needed where layout.geom_texid is -1, as the next one
+    const uint8_t* mat_texuniform;
+    const float* mat_texrepeat;
+    const int32_t* mesh_vertadr;
+    const int32_t* mesh_vertnum;
+    const int32_t* mesh_normaladr;    ///< null: mesh_vertadr, and normals are addressed by mesh_face, as in MuJoCo 2.2
+    const int32_t* mesh_texcoordadr;  ///< -1: none
+    const int32_t* mesh_faceadr;
+    const int32_t* mesh_facenum;
+    const int32_t* mesh_graphadr;  ///< -1: none
+    const float* mesh_vert;
+    const float* mesh_normal;
+    const float* mesh_texcoord;
+    const int32_t* mesh_face;
+    const int32_t* mesh_facenormal;    ///< null: mesh_face
+    const int32_t* mesh_facetexcoord;  ///< null: mesh_face
+    const int32_t* mesh_graph;
+    const double* hfield_size;
+    const int32_t* hfield_nrow;
+    const int32_t* hfield_ncol;
+    const int32_t* hfield_adr;
+    const float* hfield_data;
+    const int32_t* tex_type;
+    const int32_t* tex_width;
+    const int32_t* tex_height;
+    const int32_t* tex_nchannel;    ///< null: 3 each
+    const int32_t* tex_colorspace;  ///< mjtColorSpace, 2: sRGB; null: none says
+    const int64_t* tex_adr;
+    const uint8_t* tex_data;  ///< tex_rgb before 3.2
+    const int32_t* skin_vertadr;
+    const int32_t* skin_vertnum;
+    const int32_t* skin_texcoordadr;  ///< -1: none
+    const int32_t* skin_faceadr;
+    const int32_t* skin_facenum;
+    const float* skin_texcoord;
+    const int32_t* skin_face;
+    const int32_t* flex_facenum;  ///< mjvScene.flexfacenum: room for so many triangles of each
+} halflit_mujoco_model;
+HALFLIT_C_API int32_t halflit_mujoco_model_init(halflit_mujoco_model* model, size_t size);
+
+/// A scene, as mjv_updateScene() has left it. Nothing is copied, and nothing is written into it: a headlight's place and direction, and
+/// which geoms mirror, are found without.
+typedef struct halflit_mujoco_scene {
+    size_t size;
+    const void* geoms;      ///< mjvGeom
+    const void* lights;     ///< mjvLight
+    const void* camera;     ///< two mjvGLCamera, between which the picture is seen
+    const uint8_t* flags;   ///< ten: shadow, wireframe (not drawn), reflection, additive, skybox, fog, haze, segment, idcolor, cull_face
+    const float* skinvert;  ///< 3 nskinvert; null: skins are not drawn
+    const float* skinnormal;
+    const int32_t* flexfaceused;  ///< triangles of each flex; null: flexes are not drawn
+    const float* flexface;        ///< nine numbers a triangle
+    const float* flexnormal;
+    const float* flextexcoord;  ///< six numbers a triangle; may be null
+    int32_t ngeom, nlight;
+    int32_t enabletransform;
+    float translate[3], rotate[4], scale;
+    int32_t reserved;
+} halflit_mujoco_scene;
+HALFLIT_C_API int32_t halflit_mujoco_scene_init(halflit_mujoco_scene* scene, size_t size);
+
+/// Depth as OpenGL's: 0 at the near plane, 1 at the far plane. Or the distance along the view in the model's unit, the far plane's where
+/// nothing is.
+enum { HALFLIT_MUJOCO_DEPTH_WINDOW = 0, HALFLIT_MUJOCO_DEPTH_DISTANCE = 1 };
+/// Pass of MuJoCo from which depth is. SEGMENT: transparent geoms have depth, the sky has none. COLOR: the reverse.
+enum { HALFLIT_MUJOCO_PASS_SEGMENT = 0, HALFLIT_MUJOCO_PASS_COLOR = 1 };
+
+/// A picture of a scene, in the caller's memory, rows without gaps. A null pointer is not drawn.
+typedef struct halflit_mujoco_picture {
+    size_t size;
+    const halflit_mujoco_scene* scene;
+    const void* camera;     ///< two mjvGLCamera in place of the scene's; null: the scene's
+    const uint8_t* flags;   ///< ten flags in place of the scene's; null: the scene's
+    uint8_t* rgb;           ///< three codes a pixel; with the flag `segment` the colours of segids
+    float* depth;           ///< one number a pixel
+    int32_t* segid;         ///< of what is nearest, transparent or not; -1: nothing
+    int32_t* object;        ///< objid and objtype of it; -1, -1: nothing
+    int32_t width, height;  ///< pixels
+    int32_t samples;        ///< 1 or 4 a pixel, of rgb without `segment`
+    int32_t bottom_up;      ///< the first row is the bottom one, as mjr_readPixels() gives it
+    int32_t depth_unit;     ///< HALFLIT_MUJOCO_DEPTH
+    int32_t depth_pass;     ///< HALFLIT_MUJOCO_PASS
+} halflit_mujoco_picture;
+HALFLIT_C_API int32_t halflit_mujoco_picture_init(halflit_mujoco_picture* picture, size_t size);
+
+/// Makes the shapes and textures of a model. look: the release whose pictures are made: "2.2.2", "3.3.2" or "3.3.3" (that and later ones
+/// decode textures that are sRGB). execution may be null: the defaults. Fails (bad input) for arrays that contradict each other.
+HALFLIT_C_API int32_t halflit_mujoco_create(const halflit_mujoco_model* model, const char* look, const halflit_execution* execution,
+                                            halflit_mujoco** mujoco);
+/// Draws pictures, on all cores: of one scene seen by several cameras, or of many scenes. pictures: an array of structs of the first one's
+/// size. The same pictures come out whatever else is in the array.
+HALFLIT_C_API int32_t halflit_mujoco_render(halflit_mujoco* mujoco, const halflit_mujoco_picture* pictures, int32_t count);
+/// Frees it. Null is allowed.
+HALFLIT_C_API void halflit_mujoco_destroy(halflit_mujoco* mujoco);
+
 #ifdef __cplusplus
 }
 #endif
