@@ -39,6 +39,8 @@ void put(const Mat4& m, float to[16]);
 [[nodiscard]] Result<PictureRequest> picture_request(const halflit_picture_request* given, const World& world);
 [[nodiscard]] Result<CallersInstance> instance(const halflit_instance* given);
 [[nodiscard]] Result<Execution> execution(const halflit_execution* given);
+/// Whether SIGINT stops what is drawn by it. given: one that execution() has let pass; older programs have a shorter struct.
+[[nodiscard]] bool stops_at_interrupt(const halflit_execution* given);
 struct TextureColor {
     ColorSpace space;
     MipRule rule;

@@ -290,6 +290,11 @@ Result<Execution> execution(const halflit_execution* given) {
     return execution;
 }
 
+bool stops_at_interrupt(const halflit_execution* given) {
+    return given != nullptr &&
+           read_struct(given, default_execution(), "halflit_execution").value_or(default_execution()).stop_at_interrupt != 0;
+}
+
 halflit_target default_target() {
     halflit_target target{};
     target.size = sizeof target;

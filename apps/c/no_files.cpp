@@ -56,3 +56,21 @@ const char* halflit_answer_notes(const halflit_answer* /*answer*/) { return ""; 
 int32_t halflit_answer_is_good(const halflit_answer* /*answer*/) { return 0; }
 const void* halflit_answer_picture(const halflit_answer* /*answer*/, int32_t* /*width*/, int32_t* /*height*/) { return nullptr; }
 void halflit_answer_destroy(halflit_answer* /*answer*/) {}
+
+namespace {
+int32_t refuse_mujoco(const char* function) {
+    return halflit::c::guarded(function, {}, [&]() -> halflit::Result<void> { return halflit::refuse(function); });
+}
+}  // namespace
+int32_t halflit_mujoco_layout_init(halflit_mujoco_layout* /*layout*/, size_t /*size*/) { return refuse_mujoco(__func__); }
+int32_t halflit_mujoco_model_init(halflit_mujoco_model* /*model*/, size_t /*size*/) { return refuse_mujoco(__func__); }
+int32_t halflit_mujoco_scene_init(halflit_mujoco_scene* /*scene*/, size_t /*size*/) { return refuse_mujoco(__func__); }
+int32_t halflit_mujoco_picture_init(halflit_mujoco_picture* /*picture*/, size_t /*size*/) { return refuse_mujoco(__func__); }
+int32_t halflit_mujoco_create(const halflit_mujoco_model* /*model*/, const char* /*look*/, const halflit_execution* /*execution*/,
+                              halflit_mujoco** /*mujoco*/) {
+    return refuse_mujoco(__func__);
+}
+int32_t halflit_mujoco_render(halflit_mujoco* /*mujoco*/, const halflit_mujoco_picture* /*pictures*/, int32_t /*count*/) {
+    return refuse_mujoco(__func__);
+}
+void halflit_mujoco_destroy(halflit_mujoco* /*mujoco*/) {}

@@ -55,12 +55,6 @@ std::int32_t using_renderer(const char* function, halflit_renderer* renderer, st
     return code;
 }
 
-/// given: checked by execution(). Older programs have a shorter struct.
-bool stops_at_interrupt(const halflit_execution* given) {
-    return given != nullptr &&
-           read_struct(given, default_execution(), "halflit_execution").value_or(default_execution()).stop_at_interrupt != 0;
-}
-
 double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }

@@ -45,6 +45,7 @@ set(subfolders
     "apps/engine/answers/=apps/engine/(look|compare|calls|trade)/"
     "apps/engine/look/=apps/engine/(compare|calls|trade)/"
     "apps/engine/compare/=apps/engine/(calls|trade)/"
+    "apps/engine/mujoco/=apps/engine/(basics|film|request|job|pictures|answers|look|compare|calls|trade)/"
     "apps/halflit/program/=apps/(halflit/(flags|farm|golden|mcp|commands)|lab|viewer)/"
     "apps/halflit/flags/=apps/(halflit/(farm|golden|mcp|commands)|lab|viewer)/"
     "apps/halflit/farm/=apps/(halflit/(golden|mcp|commands)|lab|viewer)/"

@@ -140,8 +140,8 @@ STRUCTS = {
 """,
     "halflit_mujoco_scene": """
         size_t size; const void* geoms; const void* lights; const void* camera; const uint8_t* flags; const float* skinvert; const
-        float* skinnormal; const int32_t* flexfaceused; const float* flexface; const float* flexnormal; const float* flextexcoord;
-        int32_t ngeom, nlight; int32_t enabletransform; float translate[3], rotate[4], scale; int32_t reserved;
+        float* skinnormal; const int32_t* flexfaceused; const float* flexface; const float* flexnormal; int32_t ngeom, nlight;
+        int32_t enabletransform; float translate[3], rotate[4], scale; int32_t reserved;
 """,
     "halflit_mujoco_picture": """
         size_t size; const halflit_mujoco_scene* scene; const void* camera; const uint8_t* flags; uint8_t* rgb; float* depth;

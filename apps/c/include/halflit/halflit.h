@@ -1070,10 +1070,9 @@ typedef struct halflit_mujoco_scene {
     const uint8_t* flags;   ///< ten: shadow, wireframe (not drawn), reflection, additive, skybox, fog, haze, segment, idcolor, cull_face
     const float* skinvert;  ///< 3 nskinvert; null: skins are not drawn
     const float* skinnormal;
-    const int32_t* flexfaceused;  ///< triangles of each flex; null: flexes are not drawn
+    const int32_t* flexfaceused;  ///< triangles of each flex, which has no texture; null: flexes are not drawn
     const float* flexface;        ///< nine numbers a triangle
     const float* flexnormal;
-    const float* flextexcoord;  ///< six numbers a triangle; may be null
     int32_t ngeom, nlight;
     int32_t enabletransform;
     float translate[3], rotate[4], scale;

@@ -1,0 +1,401 @@
+#include "apps/engine/mujoco/frame.hpp"
+
+#include "apps/engine/mujoco/room.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halflit::engine::mujoco {
+namespace {
+
+constexpr int kGlLights = 8;            // OpenGL's limit; later ones give no light
+constexpr double kOpaque = 0.995;       // alpha from which a geom is opaque
+constexpr float kSkyShare = 0.70f;      // radius of the sky, shares of the far plane's distance
+constexpr float kWidestShadow = 160;    // degrees
+constexpr std::int32_t kModelGeom = 5;  // mjOBJ_GEOM
+
+/// A mesh of a geom, scaled, then moved along the geom's z axis.
+struct Part {
+    int mesh = 0;
+    Vec3f scale{1, 1, 1};
+    float shift = 0;
+    bool mirrors = false;
+};
+
+/// A part of a primitive: factors on its size across z and along it. turned: half a turn about x.
+struct PartRow {
+    GeomType type;
+    Shape shape;
+    float across, along, shift;
+    bool turned = false;
+};
+constexpr PartRow kParts[] = {
+    {kSphere, Shape::sphere, 1, 1, 0},
+    {kEllipsoid, Shape::sphere, 1, 1, 0},
+    {kCylinder, Shape::cylinder, 1, 1, 0},
+    {kBox, Shape::box, 1, 1, 0},
+    {kLineBox, Shape::line_box, 1, 1, 0},
+    {kTriangle, Shape::triangle, 1, 1, 0},
+    {kLine, Shape::line, 0, 1, 0},
+    {kArrow, Shape::cylinder, 1, 1 / 6.0f, 1 / 6.0f},
+    {kArrow, Shape::cone, 1.75f, 1 / 6.0f, 2 / 6.0f},
+    {kArrow1, Shape::cylinder, 1, 1 / 6.0f, 1 / 6.0f},
+    {kArrow1, Shape::cone, 1, 1 / 6.0f, 2 / 6.0f},
+    {kArrow2, Shape::tube, 1, 1 / 3.0f, 0},
+    {kArrow2, Shape::cone, 1.75f, 1 / 6.0f, -2 / 6.0f, true},
+    {kArrow2, Shape::cone, 1.75f, 1 / 6.0f, 2 / 6.0f},
+};
+
+bool is_behind(Vec3f from, Vec3f point, Vec3f normal) { return dot(from - point, normal) < 0; }
+
+/// A sphere around the geom that holds it, as MuJoCo estimates it.
+float bound_of(const Geom& g) {
+    const Vec3f s = g.size;
+    switch (g.objtype == kModelGeom ? -1 : g.type) {
+        case -1:
+            return g.rbound;
+        case kSphere:
+            return s.x;
+        case kCapsule:
+            return s.x + s.z;
+        case kCylinder:
+            return std::sqrt(s.x * s.x + s.z * s.z);
+        case kBox:
+            return length(s);
+        default:
+            return std::max({s.x, s.y, s.z});
+    }
+}
+
+class FrameMaker {
+public:
+    FrameMaker(const FrameModel& model, const Scene& scene, const FrameRequest& request)
+        : model_(model), scene_(scene), request_(request) {}
+
+    Result<SceneFrame> make() {
+        for (int k = 0; k < kFlagCount; ++k) flags_[k] = (request_.flags != nullptr ? request_.flags : kDefaultFlags)[k] != 0;
+        if (auto room = Room::of(scene_))
+            room_ = *room;
+        else
+            return tl::unexpected<Error>(room.error());
+        const auto camera = read_camera(model_.layout, request_.camera);
+        if (!camera) return tl::unexpected<Error>(camera.error());
+        set_camera(*camera);
+        for (int i = 0; i < scene_.ngeom; ++i) {
+            auto geom = read_geom(model_.layout, scene_, i, model_.materials, static_cast<int>(model_.cubes.size()));
+            if (!geom) return tl::unexpected<Error>(geom.error());
+            if (auto ok = check(*geom, i); !ok) return tl::unexpected<Error>(ok.error());
+            made_.geoms.push_back(*geom);
+        }
+        made_.frame.culls_faces = flags_[kCullFace];
+        made_.frame.adds_layers = flags_[kAdditive];
+        made_.frame.line_width = 3 * model_.line_width;
+        if (request_.segment_alone) {
+            for (std::size_t i = 0; i < made_.geoms.size(); ++i)
+                if (made_.geoms[i].segid >= 0) add_items(i, FixedStage::solid);
+            return std::move(made_);
+        }
+        find_mirror();
+        add_lights();
+        add_geoms();
+        if (flags_[kSkybox] && model_.sky >= 0) add_sky();
+        if (flags_[kFog]) {
+            made_.frame.fog_start = model_.fog_start, made_.frame.fog_end = model_.fog_end;
+            made_.frame.fog_color = model_.fog_color;
+        }
+        return std::move(made_);
+    }
+
+private:
+    void set_camera(const Camera& from) {
+        const float half = from.width > 0
+                               ? from.width
+                               : 0.5f * static_cast<float>(request_.width) / static_cast<float>(request_.height) * (from.top - from.bottom);
+        FixedCamera& camera = made_.frame.camera;
+        camera.position_ws = from.position, camera.forward_ws = from.forward, camera.up_ws = from.up;
+        camera.parallel = from.orthographic;
+        camera.left = from.center - half, camera.right = from.center + half;
+        camera.bottom = from.bottom, camera.top = from.top;
+        camera.near_z = from.near_z, camera.far_z = from.far_z;
+        made_.frame.eye_ws = from.position;
+        head_ = room_.point_in_model(from.position);
+        gaze_ = room_.direction_in_model(from.forward);
+    }
+
+    /// Fails for a mesh that is not there.
+    [[nodiscard]] Result<void> check(const Geom& geom, int index) const {
+        const ModelMeshes& n = model_.numbers;
+        const auto [name, found, count] = [&]() -> std::tuple<const char*, int, int> {
+            switch (geom.type) {
+                case kPlane:
+                    return {"dataid", geom.dataid, n.models - n.planes};
+                case kHField:
+                    return {"dataid", geom.dataid, n.skins - n.hfields};
+                case kMesh:
+                case kSdf:
+                    return {"dataid", geom.dataid, n.hfields - n.models};
+                case kSkin:
+                    return {"objid", geom.objid, n.flexes - n.skins};
+                case kFlex:
+                    return {"objid", geom.objid, n.end - n.flexes};
+                default:
+                    return {"", -1, 0};
+            }
+        }();
+        if (found < count) return {};
+        return fail(ErrorCode::bad_input, fmt::format("geom {}: {} is {}, the model has {}", index, name, found, count));
+    }
+
+    [[nodiscard]] bool is_seen_from_behind(const Geom& g) const { return g.type == kPlane && is_behind(head_, g.position, g.axes[2]); }
+    [[nodiscard]] bool is_transparent(const Geom& g) const { return static_cast<double>(g.rgba.w) < kOpaque || is_seen_from_behind(g); }
+
+    /// The first opaque plane or box with reflectance is the only mirror; of a box it is the upper side.
+    void find_mirror() {
+        for (std::size_t i = 0; i < made_.geoms.size() && mirror_ < 0; ++i) {
+            const Geom& g = made_.geoms[i];
+            if ((g.type == kPlane || g.type == kBox) && g.reflectance > 0 && !is_transparent(g)) mirror_ = static_cast<int>(i);
+        }
+        if (mirror_ < 0 || !flags_[kReflection]) return;
+        const Geom& g = made_.geoms[static_cast<std::size_t>(mirror_)];
+        const Vec3f point = g.type == kBox ? g.position + g.axes[2] * g.size.z : g.position;
+        if (is_behind(head_, point, g.axes[2])) return;
+        made_.frame.has_mirror = true;
+        made_.frame.mirror = {room_.point(point), normalize_or(room_.direction(g.axes[2]), {0, 0, 1}), g.reflectance};
+        head_in_mirror_ = head_ - g.axes[2] * (2 * dot(head_ - point, g.axes[2]));
+    }
+
+    void add_lights() {
+        const FixedCamera& camera = made_.frame.camera;
+        const float scale = room_.scale();
+        bool any = false;
+        for (int i = 0; i < scene_.nlight; ++i) {
+            Light from = read_light(model_.layout, scene_, i);
+            if (from.kind == LightKind::none) continue;
+            any = true;
+            if (i >= kGlLights) continue;
+            if (i == 0 && from.headlight) from.position = head_, from.direction = gaze_;
+            FixedLight light{.position_ws = room_.point(from.position),
+                             .direction_ws = room_.direction(from.direction),
+                             .directional = from.kind == LightKind::directional,
+                             .ambient = from.ambient,
+                             .diffuse = from.diffuse,
+                             .specular = from.specular};
+            if (!light.directional) {
+                std::copy(from.attenuation, from.attenuation + 3, light.attenuation);
+                light.cutoff_deg = from.cutoff >= 0 && from.cutoff <= 90 ? from.cutoff : 180.0f;  // OpenGL refuses others
+                light.exponent = from.exponent >= 0 && from.exponent <= 128 ? from.exponent : 0.0f;
+            }
+            if (from.castshadow && flags_[kShadow]) {
+                light.shadow_size = model_.shadow_size;
+                light.shadow_fov_deg = std::min(2 * from.cutoff * model_.shadow_scale, kWidestShadow);
+                light.shadow_half_width = model_.shadow_clip * scale;
+                light.shadow_near = camera.near_z * scale, light.shadow_far = camera.far_z * scale;
+            }
+            made_.frame.lights.push_back(light);
+        }
+        if (!any) made_.frame.ambient = 0.3f;
+        const Look& look = model_.look;
+        made_.frame.shadow = {look.back_faces_alone && flags_[kCullFace], look.offset_factor, look.offset_units};
+    }
+
+    /// The mirror, other opaque geoms in their order, and transparent ones from front to back.
+    void add_geoms() {
+        std::vector<std::pair<float, std::size_t>> order;
+        if (mirror_ >= 0) add_items(static_cast<std::size_t>(mirror_), FixedStage::solid);
+        for (std::size_t i = 0; i < made_.geoms.size(); ++i) {
+            const Geom& g = made_.geoms[i];
+            if (is_transparent(g))
+                order.emplace_back(g.type == kPlane ? 1e10f : length(g.position - head_) - bound_of(g), i);
+            else if (static_cast<int>(i) != mirror_)
+                add_items(i, FixedStage::solid);
+        }
+        std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (const auto& [distance, i] : order) add_items(i, FixedStage::transparent);
+    }
+
+    /// The meshes that a geom is drawn with.
+    [[nodiscard]] std::vector<Part> parts_of(const Geom& g, bool mirrors) const {
+        const ModelMeshes& n = model_.numbers;
+        const Vec3f s = g.size;
+        switch (g.type) {
+            case kPlane:
+                if (g.dataid >= 0) return {{.mesh = n.planes + g.dataid, .mirrors = mirrors}};
+                return {{static_cast<int>(Shape::plane), {s.x, s.y, 1}, 0, mirrors}};
+            case kHField:
+                if (g.dataid < 0) return {};
+                return {{.mesh = n.hfields + g.dataid}};
+            case kMesh:
+            case kSdf:
+                if (g.dataid < 0) return {};
+                return {{.mesh = n.models + g.dataid}};
+            case kSkin:
+                if (scene_.skinvert == nullptr || scene_.skinnormal == nullptr || g.objid < 0) return {};
+                return {{.mesh = n.skins + g.objid}};
+            case kFlex:
+                if (scene_.flexfaceused == nullptr || scene_.flexface == nullptr || scene_.flexnormal == nullptr || g.objid < 0) return {};
+                return {{.mesh = n.flexes + g.objid}};
+            case kCapsule: {
+                const auto radius = static_cast<float>(0.5 * static_cast<double>(s.x + s.y));
+                return {{static_cast<int>(Shape::tube), s, 0},
+                        {static_cast<int>(Shape::upper_cap), {s.x, s.y, radius}, s.z - radius},
+                        {static_cast<int>(Shape::lower_cap), {s.x, s.y, radius}, radius - s.z}};
+            }
+            case kBox:
+                if (mirrors) return {{static_cast<int>(Shape::box_top), s, 0, true}, {static_cast<int>(Shape::box_rest), s}};
+                break;
+            default:
+                break;
+        }
+        std::vector<Part> parts;
+        for (const PartRow& row : kParts) {
+            if (row.type != g.type) continue;
+            const float turn = row.turned ? -1.0f : 1.0f;
+            const Vec3f scale =
+                row.across > 0 ? Vec3f{s.x * row.across, s.y * row.across * turn, s.z * row.along * turn} : Vec3f{1, 1, s.z};
+            parts.push_back({static_cast<int>(row.shape), scale, s.z * row.shift});
+        }
+        return parts;
+    }
+
+    void add_items(std::size_t index, FixedStage stage) {
+        const Geom& g = made_.geoms[index];
+        const bool is_mirror = static_cast<int>(index) == mirror_ && made_.frame.has_mirror, behind = is_seen_from_behind(g);
+        const bool is_soft = g.type == kSkin || g.type == kFlex, is_line = g.type == kLine || g.type == kLineBox;
+        FixedItem item;
+        item.material = material_of(g, behind);
+        item.material.unlit = is_line;
+        item.stage = stage;
+        item.id = static_cast<std::uint32_t>(index) + 1;
+        // A plane that is seen from behind has its other side culled, in the mirror too, where that may be the side that is seen.
+        item.both_sides = behind;
+        item.in_mirror =
+            static_cast<int>(index) != mirror_ && !(behind && made_.frame.has_mirror && !is_behind(head_in_mirror_, g.position, g.axes[2]));
+        item.casts_shadow = !is_line;
+        item.in_planes = g.segid >= 0;
+        for (const Part& part : parts_of(g, is_mirror)) {
+            item.mesh = part.mesh;
+            item.mirrors = part.mirrors;
+            item.world_from_object = is_soft
+                                         ? room_.matrix({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}})
+                                         : room_.matrix({in_double(g.axes[0]) * static_cast<double>(part.scale.x),
+                                                         in_double(g.axes[1]) * static_cast<double>(part.scale.y),
+                                                         in_double(g.axes[2]) * static_cast<double>(part.scale.z),
+                                                         in_double(g.position) + in_double(g.axes[2]) * static_cast<double>(part.shift)});
+            made_.frame.items.push_back(item);
+        }
+    }
+
+    [[nodiscard]] FixedMaterial material_of(const Geom& g, bool behind) const {
+        FixedMaterial m;
+        m.color = g.rgba;
+        if (behind) m.color.w = static_cast<float>(0.3 * static_cast<double>(m.color.w));
+        m.emission = Vec3f{g.rgba.x, g.rgba.y, g.rgba.z} * g.emission;
+        m.specular = g.specular;
+        m.shininess = std::clamp(g.shininess * 128.0f, 0.0f, 128.0f);
+        set_texture(g, m);
+        return m;
+    }
+
+    /// A texture by the mesh's own coordinates, or by the position in the shape: two coordinates of it, or its direction.
+    void set_texture(const Geom& g, FixedMaterial& m) const {
+        const TextureUse& use = g.use;
+        if (use.texture < 0) return;
+        const bool cube = model_.cubes[static_cast<std::size_t>(use.texture)];
+        if (g.texcoord > 0) {
+            if (!cube) m.texture = use.texture;  // OpenGL binds a cube to the wrong target
+            return;
+        }
+        m.texture = use.texture;
+        m.generated = true;
+        const float size[3] = {g.size.x, g.size.y, g.size.z};
+        if (cube) {
+            const auto scale = [&](int k) { return use.uniform ? size[k] : 1.0f; };
+            m.planes[0] = {scale(0), 0, 0, 0}, m.planes[1] = {0, scale(1), 0, 0}, m.planes[2] = {0, 0, scale(2), 0};
+            return;
+        }
+        float scale[2] = {use.repeat[0], use.repeat[1]};
+        for (int k = 0; k < 2; ++k) {
+            if (size[k] <= 0) continue;
+            // Planes of the model, meshes and height fields have their true size, the other shapes that of the unit shape.
+            if (g.dataid >= 0) scale[k] /= size[k];
+            if (use.uniform) scale[k] *= size[k];
+        }
+        m.planes[0] = {0.5f * scale[0], 0, 0, -0.5f}, m.planes[1] = {0, -0.5f * scale[1], 0, -0.5f};
+    }
+
+    /// A cylinder around the head, and over it the haze of the first infinite plane.
+    void add_sky() {
+        FixedItem item;
+        item.mesh = static_cast<int>(Shape::cylinder);
+        item.stage = FixedStage::backdrop;
+        item.both_sides = true;
+        item.in_planes = item.in_mirror = item.casts_shadow = false;
+        item.material.color = {1, 1, 1, 1};
+        item.material.unlit = item.material.generated = true;
+        item.material.texture = model_.sky;
+        item.material.planes[0] = {1, 0, 0, 0}, item.material.planes[1] = {0, 0, 1, 0}, item.material.planes[2] = {0, -1, 0, 0};
+        const float radius = made_.frame.camera.far_z * kSkyShare / room_.scale();
+        const auto r = static_cast<double>(radius);
+        item.world_from_object = room_.matrix({{r, 0, 0}, {0, r, 0}, {0, 0, r}, in_double(head_)});
+        made_.frame.items.push_back(item);
+        const auto plane = std::find_if(made_.geoms.begin(), made_.geoms.end(),
+                                        [](const Geom& g) { return g.type == kPlane && g.size.x == 0 && g.size.y == 0; });
+        if (!flags_[kHaze] || plane == made_.geoms.end()) return;
+        const float height = dot(head_ - plane->position, plane->axes[2]) / radius;
+        if (height < 0) return;
+        item.mesh = static_cast<int>(Shape::haze);
+        item.stage = FixedStage::haze;
+        item.material.texture = -1;
+        item.material.generated = false;
+        const Vec3d up = in_double(plane->axes[2]) * (r * static_cast<double>(height));
+        item.world_from_object = room_.matrix({in_double(plane->axes[0]) * r, in_double(plane->axes[1]) * r, up, in_double(head_) - up});
+        made_.frame.items.push_back(item);
+    }
+
+    const FrameModel& model_;
+    const Scene& scene_;
+    const FrameRequest& request_;
+    Room room_;
+    bool flags_[kFlagCount] = {};
+    Vec3f head_, gaze_, head_in_mirror_;  ///< in the model's space
+    int mirror_ = -1;
+    SceneFrame made_;
+};
+
+}  // namespace
+
+Result<FrameModel> frame_model(const Model& model, const Look& look, const ModelMeshes& made) {
+    FrameModel to{.layout = model.layout,
+                  .look = look,
+                  .shadow_clip = static_cast<float>(static_cast<double>(model.shadowclip) * model.extent),
+                  .shadow_scale = model.shadowscale,
+                  .fog_start = static_cast<float>(static_cast<double>(model.fogstart) * model.extent),
+                  .fog_end = static_cast<float>(static_cast<double>(model.fogend) * model.extent),
+                  .line_width = model.linewidth,
+                  .fog_color = {model.fog_rgba[0], model.fog_rgba[1], model.fog_rgba[2]},
+                  .shadow_size = model.shadowsize,
+                  .numbers = {{}, made.planes, made.models, made.hfields, made.skins, made.flexes, made.end, made.soft},
+                  .materials = {},
+                  .cubes = {}};
+    constexpr int kSkyTexture = 2;
+    for (int i = 0; i < model.ntex; ++i) {
+        to.cubes.push_back(model.tex_type[i] != 0);
+        if (model.tex_type[i] == kSkyTexture && to.sky < 0) to.sky = i;
+    }
+    for (int i = 0; i < model.nmat && model.mat_texid != nullptr; ++i) {
+        if (model.mat_texid[i] >= model.ntex)
+            return fail(ErrorCode::bad_input, fmt::format("mat_texid: {} of {} textures", model.mat_texid[i], model.ntex));
+        to.materials.push_back({std::max(-1, model.mat_texid[i]),
+                                model.mat_texuniform != nullptr && model.mat_texuniform[i] != 0,
+                                {model.mat_texrepeat[2 * i], model.mat_texrepeat[2 * i + 1]}});
+    }
+    return to;
+}
+
+Result<SceneFrame> make_frame(const FrameModel& model, const Scene& scene, const FrameRequest& request) {
+    return FrameMaker(model, scene, request).make();
+}
+
+}  // namespace halflit::engine::mujoco

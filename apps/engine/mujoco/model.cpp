@@ -1,0 +1,94 @@
+#include "apps/engine/mujoco/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace halflit::engine::mujoco {
+namespace {
+
+// Later releases draw both sides into shadow maps, with the offset that they set where OpenGL has clip control.
+constexpr Look kLooks[] = {
+    {"2.2.2", false, true, 0.0f, 0.0f},
+    {"3.3.2", false, false, 1.5f, 4.0f},
+    {"3.3.3", true, false, 1.5f, 4.0f},
+};
+
+struct MemberRow {
+    const char* name;
+    std::int32_t Layout::*place;
+    std::int32_t Layout::*whole;
+    std::int32_t bytes;
+    bool is_needed;
+};
+constexpr MemberRow kMembers[] = {
+#define MEMBER(name, whole, bytes, place, is_needed) {#name, &Layout::name, &Layout::whole, bytes, is_needed},
+#include "apps/engine/mujoco/layout_members.def"
+};
+
+struct CountRow {
+    const char* name;
+    std::int32_t count;
+    std::int32_t least = 0;
+};
+
+struct ArrayRow {
+    const char* name;
+    const void* array;
+    std::uint64_t count;
+};
+
+/// Slices, stacks, quads: 250 make some hundred thousand triangles a shape, as none can be told from.
+constexpr int kFinest = 250;
+constexpr int kLargestShadowMap = 32768;
+
+}  // namespace
+
+Result<Look> look_of(std::string_view name) {
+    for (const Look& look : kLooks)
+        if (look.name == name) return look;
+    return fail(ErrorCode::usage, fmt::format("look: '{}', expected 2.2.2, 3.3.2 or 3.3.3", name));
+}
+
+Result<void> check_layout(const Layout& layout) {
+    for (const MemberRow& row : kMembers) {
+        const std::int32_t place = layout.*row.place, whole = layout.*row.whole;
+        if (place == -1 && !row.is_needed) continue;
+        if (place < 0 || place > whole - row.bytes)
+            return fail(ErrorCode::usage, fmt::format("layout: {} is {} in a struct of {} bytes", row.name, place, whole));
+    }
+    return {};
+}
+
+Result<void> check_range(std::int64_t begin, std::int64_t count, std::uint64_t size, std::string_view what) {
+    const auto most = static_cast<std::int64_t>(std::min<std::uint64_t>(size, std::numeric_limits<std::int64_t>::max()));
+    if (begin >= 0 && count >= 0 && begin <= most && count <= most - begin) return {};
+    return fail(ErrorCode::bad_input, fmt::format("{}: {} from {} on, the model has {}", what, count, begin, size));
+}
+
+Result<void> check_model(const Model& model) {
+    if (auto ok = check_layout(model.layout); !ok) return ok;
+    const CountRow counts[] = {
+#define COUNT(name) {#name, model.name},
+#include "apps/engine/mujoco/model_members.def"
+    };
+    for (const CountRow& row : counts)
+        if (row.count < 0) return fail(ErrorCode::bad_input, fmt::format("{} is {}, expected at least 0", row.name, row.count));
+    const ArrayRow arrays[] = {
+#define OPTIONAL(type, name, count, each)
+#define ARRAY(type, name, count, each) {#name, model.name, static_cast<std::uint64_t>(model.count)},
+#include "apps/engine/mujoco/model_members.def"
+    };
+    for (const ArrayRow& row : arrays)
+        if (row.count > 0 && row.array == nullptr) return fail(ErrorCode::bad_input, fmt::format("{} is null", row.name));
+    const CountRow fineness[] = {{"numslices", model.numslices, 3}, {"numstacks", model.numstacks, 2}, {"numquads", model.numquads, 1}};
+    for (const CountRow& row : fineness)
+        if (row.count < row.least || row.count > kFinest)
+            return fail(ErrorCode::bad_input, fmt::format("{} is {}, expected {} to {}", row.name, row.count, row.least, kFinest));
+    if (model.shadowsize < 0 || model.shadowsize > kLargestShadowMap)
+        return fail(ErrorCode::bad_input, fmt::format("shadowsize is {}, expected 0 to {}", model.shadowsize, kLargestShadowMap));
+    return {};
+}
+
+}  // namespace halflit::engine::mujoco
