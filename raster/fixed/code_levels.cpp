@@ -42,18 +42,23 @@ std::uint8_t encode(float value, const std::array<float, 256>& numbers) {
     return static_cast<std::uint8_t>(value - *(above - 1) < *above - value ? i - 1 : i);
 }
 
-/// The level of half the size: its texels' middles are read between the middles of the larger level's.
-Face half_of(const Face& from, const std::array<float, 256>& numbers, bool plain) {
+/// The level of half the size: its texels' middles are read between the middles of the larger level's, in 1/256 texel, and codes are
+/// rounded after each direction.
+Face half_of(const Face& from, const std::array<float, 256>& numbers, bool in_codes) {
     Face to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
     to.texels.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
     struct Tap {
-        int first;
-        float part;
+        int first, second, part;
     };
     const auto tap = [](int i, int size, int half) {
-        const float place = (static_cast<float>(i) + 0.5f) * (static_cast<float>(size) / static_cast<float>(half)) - 0.5f;
-        const int first = static_cast<int>(place);  // place >= 0
-        return Tap{first, place - static_cast<float>(first)};
+        const float middle = (static_cast<float>(i) + 0.5f) / static_cast<float>(half);
+        const int place = static_cast<int>(__builtin_lrintf(middle * (static_cast<float>(size) * 256.0f))) - 128;
+        return Tap{std::clamp(place >> 8, 0, size - 1), std::clamp((place >> 8) + 1, 0, size - 1), place & 255};
+    };
+    const auto mixed = [&](int a, int b, int part) {
+        if (in_codes) return a + ((part * (b - a) + 128) >> 8);
+        const float low = numbers[static_cast<std::size_t>(a)], high = numbers[static_cast<std::size_t>(b)];
+        return int{encode(low + static_cast<float>(part) * (1.0f / 256.0f) * (high - low), numbers)};
     };
     for (int y = 0; y < to.height; ++y) {
         const Tap down = tap(y, from.height, to.height);
@@ -61,11 +66,8 @@ Face half_of(const Face& from, const std::array<float, 256>& numbers, bool plain
             const Tap along = tap(x, from.width, to.width);
             Texel& out = to.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width) + static_cast<std::size_t>(x)];
             for (std::size_t c = 0; c < 3; ++c) {
-                const auto number = [&](int dx, int dy) { return numbers[from.at(along.first + dx, down.first + dy)[c]]; };
-                const float top = number(0, 0) + along.part * (number(1, 0) - number(0, 0));
-                const float low = number(0, 1) + along.part * (number(1, 1) - number(0, 1));
-                const float mean = top + down.part * (low - top);
-                out[c] = plain ? static_cast<std::uint8_t>(mean * 255.0f + 0.5f) : encode(mean, numbers);
+                const auto row = [&](int of) { return mixed(from.at(along.first, of)[c], from.at(along.second, of)[c], along.part); };
+                out[c] = static_cast<std::uint8_t>(mixed(row(down.first), row(down.second), down.part));
             }
         }
     }
@@ -142,6 +144,7 @@ CodeLevelsData::CodeLevelsData(const CodeTexture& texture) {
             faces[f].texels.push_back({texture.rgb[3 * i], texture.rgb[3 * i + 1], texture.rgb[3 * i + 2]});
     levels_.decoded = numbers.data();
     levels_.cube = texture.cube;
+    levels_.in_codes = !texture.cube && !texture.decodes_srgb;
     while (true) {
         const auto level = static_cast<std::size_t>(levels_.count++);
         levels_.first[level] = static_cast<std::int32_t>(texels_.size());

@@ -170,7 +170,9 @@ private:
         const bool textured = list.material > 0;
         interpolate(list, padded, pass_.surface_, light_.surface_slots(), textured);
         if (textured)
-            context_.kernels.code_texels(context_.textures[static_cast<std::size_t>(list.material - 1)].levels(), scratch_.block, padded, texels_);
+            context_.kernels.code_texels({&context_.textures[static_cast<std::size_t>(list.material - 1)].levels(), &scratch_.block, list.x_px,
+                                          list.y_px, static_cast<int>(2.0f * pass_.view_.viewport.half_height), padded},
+                                         texels_);
         alignas(64) std::uint32_t codes[kBlockSize];
         codes_of(shading::kTangentX, true, textured, true, padded, codes);
         const auto first = static_cast<std::uint32_t>(out_.fragments.size());

@@ -130,8 +130,7 @@ Result<void> FixedFunctionRenderer::Impl::draw_mirror(const FixedContext& contex
         return item.in_mirror && !item.mirrors && (item.stage == FixedStage::solid || item.stage == FixedStage::transparent);
     });
     const float height = dot(n, frame.eye_ws) + offset;
-    VertexLight light(frame, reflected, frame.eye_ws - n * (2.0f * height), false, mirror.reflectance);
-    light.set_cubes(true);
+    const VertexLight light(frame, reflected, in.clip_from_world, frame.eye_ws - n * (2.0f * height), false, mirror.reflectance);
     if (auto ok = mirrored.shade(context, in, light, {}, nullptr); !ok) return ok;
     mirrored.compose(context, nullptr, in_mirror);
     return {};
@@ -166,10 +165,7 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
 
     if (target.samples == 4) view.samples = four_samples();
     (void)show(frame, [](const FixedItem&) { return true; });
-    VertexLight light(frame, camera_from_world, frame.eye_ws, true, 1.0f);
-    light.set_cubes(any([&](const FixedItem& item) {
-        return item.material.texture >= 0 && textures[static_cast<std::size_t>(item.material.texture)].levels().cube;
-    }));
+    const VertexLight light(frame, camera_from_world, view.clip_from_world, frame.eye_ws, true, 1.0f);
     std::vector<LightMap> maps;
     for (const std::size_t i : light.shadowed()) maps.emplace_back(frame.lights[i]);
     if (auto ok = picture.shade(context, view, light, maps, has_planes && !alone ? &target : nullptr); !ok) return ok;

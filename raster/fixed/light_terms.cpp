@@ -56,10 +56,11 @@ void rows_in_world(const FixedItem& item, float (&out)[3][4]) {
 
 }  // namespace
 
-VertexLight::VertexLight(const FixedFrame& frame, const Mat4& view_from_world, Vec3f eye_ws, bool shares, float reflectance)
+VertexLight::VertexLight(const FixedFrame& frame, const Mat4& view_from_world, const Mat4& clip_from_world, Vec3f eye_ws, bool shares,
+                         float reflectance)
     : frame_(frame), eye_ws_(eye_ws), reflectance_(reflectance) {
-    const auto& c = view_from_world.c;
-    for (int k = 0; k < 4; ++k) depth_row_[k] = -c[k].z;
+    for (int k = 0; k < 4; ++k) depth_row_[k] = -view_from_world.c[k].z, w_row_[k] = clip_from_world.c[k].w;
+    textured_ = std::any_of(frame.items.begin(), frame.items.end(), [](const FixedItem& item) { return item.material.texture >= 0; });
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
         lights_.push_back(terms_of(frame.lights[i]));
         all_.push_back(i);
@@ -68,7 +69,7 @@ VertexLight::VertexLight(const FixedFrame& frame, const Mat4& view_from_world, V
 }
 
 shading::SlotMask VertexLight::surface_slots() const {
-    return shading::kPositionSlot | shading::kUv0Slot | shading::kTangentSlot | (has_cubes_ ? shading::kUv1Slot : 0u);
+    return shading::kPositionSlot | shading::kUv0Slot | shading::kTangentSlot | (textured_ ? shading::kUv1Slot : 0u);
 }
 
 void VertexLight::fill(const FixedItem& item, const VertexRecordArgs& args, const RasterKernels& kernels, int in_turn, int count) const {
@@ -107,7 +108,8 @@ void VertexLight::fill(const FixedItem& item, const VertexRecordArgs& args, cons
         std::copy(std::begin(depth_row_), std::end(depth_row_), light.depth);
         light.generated = material.generated && material.texture >= 0;
         if (light.generated) rows_in_world(item, light.planes);
-        light.third = has_cubes_;
+        light.textured = textured_;
+        std::copy(std::begin(w_row_), std::end(w_row_), light.clip_w);
     }
     light.lights = terms.data();
     light.light_count = static_cast<int>(terms.size());

@@ -68,12 +68,13 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     const auto tiles = static_cast<std::size_t>(view.tile_count());
     std::vector<std::uint32_t> next(tiles), counts(tiles);
     std::vector<float> farthest(tiles, kFarAway);
-    const bool moved = rule.offset_factor != 0.0f || rule.offset_units != 0.0f;  // triangles may be nearer than their corners
+    const float units = rule.offset_units * (1.0f / 16777216.0f);
+    const bool slopes = rule.offset_factor != 0.0f;  // triangles may be nearer than their corners
     for (const std::span<ShadowLookup> group : groups)
         for (const ShadowLookup& at : group) {
             const std::size_t t = tile_of(at);
             ++counts[t];
-            farthest[t] = std::min(farthest[t], moved ? -1.0f : at.z);
+            farthest[t] = std::min(farthest[t], slopes ? -1.0f : at.z + units);
         }
     if (auto ok = geometry_.make_before(casters, view, farthest, kernels, executor); !ok) return ok;
 
@@ -102,7 +103,7 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
         const int tile = asked[static_cast<std::size_t>(task)];
         const std::uint32_t at = first_[static_cast<std::size_t>(tile)];
         const OcclusionPoints points{x_.data() + at, y_.data() + at, z_.data() + at, static_cast<int>(first_[static_cast<std::size_t>(tile) + 1] - at),
-                                     rule.offset_factor, rule.offset_units * (1.0f / 16777216.0f), hidden_.data() + at};
+                                     rule.offset_factor, units, hidden_.data() + at};
         std::vector<std::uint32_t> scratch, ids;
         for (std::size_t c = 0; c < geometry_.chunks().size(); ++c) {
             const std::span<const std::uint32_t> list = geometry_.tile_list(c, tile, scratch);

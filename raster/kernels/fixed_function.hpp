@@ -81,39 +81,55 @@ HALFLIT_INLINE void fixed_vertices_at(const FixedVertexArgs& args, int first) {
     store4(out, args.stride, p.x, p.y, p.z, row4(args.depth, p));
     store4(out + 4, args.stride, F(0.0f), F(0.0f), u, v);
     store4(out + 8, args.stride, hold_unit(sum[0]), hold_unit(sum[1]), hold_unit(sum[2]), hold_unit(alpha));
-    if (args.third) store4(out + 12, args.stride, third, F(0.0f), F(0.0f), F(0.0f));
+    if (args.textured) store4(out + 12, args.stride, third, row4(args.clip_w, p), F(0.0f), F(0.0f));
 }
 
 inline void fixed_vertices(const FixedVertexArgs& args) {
     for (int i = 0; i < args.count; i += kWidth) fixed_vertices_at(args, i);
 }
 
-/// A texture's colour at (s, t) of a level, in texels from the first texel's middle on. row: texels from a row to the next.
-struct BilinearTexels {
-    I index[4];
-    F along, down;
-};
-
-HALFLIT_INLINE void bilinear(const CodeLevels& levels, const BilinearTexels& of, F (&rgb)[3]) {
-    I texel[4];
-    for (int k = 0; k < 4; ++k) texel[k] = gather(levels.texels, of.index[k]);
-    const I byte(0xff);
-    for (int c = 0; c < 3; ++c) {
-        F value[4];
-        for (int k = 0; k < 4; ++k) {
-            const I code = c == 0 ? texel[k] & byte : c == 1 ? shr<8>(texel[k]) & byte : shr<16>(texel[k]) & byte;
-            value[k] = gather(levels.decoded, code);
-        }
-        const F top = mad(of.along, value[1] - value[0], value[0]), low = mad(of.along, value[3] - value[2], value[2]);
-        rgb[c] = mad(of.down, low - top, top);
-    }
+template <int kChannel>
+HALFLIT_INLINE I channel_of(I texel) {
+    return shr<8 * kChannel>(texel) & I(0xff);
 }
 
-/// Texel x of a row that repeats: a whole number, as a float; size: of the row.
-HALFLIT_INLINE F wrapped(F x, F size) {
-    const F turns = vfloor(vdiv(x, size));
-    const F in_row = x - turns * size;
-    return vmin(vmax(in_row, F(0.0f)), size - F(1.0f));
+/// a + (b - a) w / 256, rounded as Mesa's filter of codes does.
+HALFLIT_INLINE I lerp_codes(I a, I b, I w) { return a + shr<8>(w * (b - a) + I(128)); }
+
+template <int kChannel>
+HALFLIT_INLINE I bilinear_codes(const I (&texel)[4], I along, I down) {
+    const auto code = [&](int k) __attribute__((always_inline)) { return channel_of<kChannel>(texel[k]); };
+    return lerp_codes(lerp_codes(code(0), code(1), along), lerp_codes(code(2), code(3), along), down);
+}
+
+template <int kChannel>
+HALFLIT_INLINE F bilinear_numbers(const CodeLevels& levels, const I (&texel)[4], F along, F down) {
+    const auto number = [&](int k) __attribute__((always_inline)) { return gather(levels.decoded, channel_of<kChannel>(texel[k])); };
+    const F top = mad(along, number(1) - number(0), number(0)), low = mad(along, number(3) - number(2), number(2));
+    return mad(down, low - top, top);
+}
+
+/// Place along one side of a level, in 1/256 texel from the middle of the first one, and the two texels around it in a row that repeats.
+struct CodeAxis {
+    I first, second, part;
+};
+HALFLIT_INLINE CodeAxis code_axis(F coordinate, I size, bool power_of_two) {
+    const F scale = to_float(size) * F(256.0f);
+    CodeAxis axis;
+    if (power_of_two) {
+        const I place = round_even(clamp(coordinate * scale, F(-1e9f), F(1e9f))) - I(128);
+        axis.part = place & I(255);
+        axis.first = shr<8>(place) & (size - I(1));
+        axis.second = (axis.first + I(1)) & (size - I(1));
+        return axis;
+    }
+    const I place = round_even(clamp((coordinate - vfloor(coordinate)) * scale, F(0.0f), scale)) - I(128);
+    axis.part = place & I(255);
+    axis.first = shr<8>(place);
+    axis.second = axis.first + I(1);
+    axis.first = sel(less(axis.first, I(0)), size - I(1), vmin(axis.first, size - I(1)));
+    axis.second = sel(less(axis.second, size), axis.second, I(0));
+    return axis;
 }
 
 /// Coordinates of a lane at all levels: u and v of the texture, or of a cube's face.
@@ -122,38 +138,43 @@ struct CodePlace {
     I face;
 };
 
-HALFLIT_INLINE void level_color(const CodeLevels& levels, const CodePlace& place, I level, F (&rgb)[3]) {
+/// A level's colour at a place: in codes, as whole numbers, or in numbers.
+HALFLIT_INLINE void level_color(const CodeLevels& levels, const CodePlace& place, I level, I (&codes)[3], F (&numbers)[3]) {
     const I width = gather(levels.width, level), height = gather(levels.height, level), first = gather(levels.first, level);
-    const F w = to_float(width), h = to_float(height);
-    BilinearTexels of;
+    I texel[4];
+    F along, down;
     if (levels.cube) {
-        const F s = place.u * w + F(0.5f), t = place.v * h + F(0.5f);  // in texels of the face with its border
-        const F left = clamp(vfloor(s), F(0.0f), w), top = clamp(vfloor(t), F(0.0f), h);
-        of.along = s - left;
-        of.down = t - top;
-        const I pitch = width + I(2);
-        of.index[0] = first + (place.face * pitch + round_to_int(top)) * pitch + round_to_int(left);
-        of.index[1] = of.index[0] + I(1);
-        of.index[2] = of.index[0] + pitch;
-        of.index[3] = of.index[2] + I(1);
+        const F size = to_float(width), s = place.u * size + F(0.5f), t = place.v * size + F(0.5f);  // in texels of the face with its border
+        const F left = clamp(vfloor(s), F(0.0f), size), top = clamp(vfloor(t), F(0.0f), size);
+        along = s - left, down = t - top;
+        const I pitch = width + I(2), at = first + (place.face * pitch + round_to_int(top)) * pitch + round_to_int(left);
+        const I index[4] = {at, at + I(1), at + pitch, at + pitch + I(1)};
+        for (int k = 0; k < 4; ++k) texel[k] = gather(levels.texels, index[k]);
     } else {
-        const F s = place.u * w - F(0.5f), t = place.v * h - F(0.5f);
-        const F left = vfloor(s), top = vfloor(t);
-        of.along = s - left;
-        of.down = t - top;
-        const I x[2] = {round_to_int(wrapped(left, w)), round_to_int(wrapped(left + F(1.0f), w))};
-        const I y[2] = {round_to_int(wrapped(top, h)), round_to_int(wrapped(top + F(1.0f), h))};
-        for (int k = 0; k < 4; ++k) of.index[k] = first + y[k >> 1] * width + x[k & 1];
+        const auto is_power = [](std::int32_t size) { return (size & (size - 1)) == 0; };
+        const CodeAxis x = code_axis(place.u, width, is_power(levels.width[0])), y = code_axis(place.v, height, is_power(levels.height[0]));
+        const I index[4] = {first + y.first * width + x.first, first + y.first * width + x.second, first + y.second * width + x.first,
+                            first + y.second * width + x.second};
+        for (int k = 0; k < 4; ++k) texel[k] = gather(levels.texels, index[k]);
+        if (levels.in_codes) {
+            codes[0] = bilinear_codes<0>(texel, x.part, y.part);
+            codes[1] = bilinear_codes<1>(texel, x.part, y.part);
+            codes[2] = bilinear_codes<2>(texel, x.part, y.part);
+            return;
+        }
+        along = to_float(x.part) * F(1.0f / 256.0f), down = to_float(y.part) * F(1.0f / 256.0f);
     }
-    bilinear(levels, of, rgb);
+    numbers[0] = bilinear_numbers<0>(levels, texel, along, down);
+    numbers[1] = bilinear_numbers<1>(levels, texel, along, down);
+    numbers[2] = bilinear_numbers<2>(levels, texel, along, down);
 }
 
-/// A direction's face, and the place on it with its changes per pixel.
+/// A direction's face, and the place on it with its changes.
 HALFLIT_INLINE CodePlace cube_place(const V3& d, const V3 (&step)[2], F (&du)[2], F (&dv)[2]) {
     const F ax = vabs(d.x), ay = vabs(d.y), az = vabs(d.z);
-    const M is_x = (ax >= ay) & (ax >= az), is_y = (ay >= az);
+    const M is_z = az >= vmax(ax, ay), is_x = ax > ay;
     const F none(0.0f);
-    const auto choose = [&](F x, F y, F z) __attribute__((always_inline)) { return sel(is_x, x, sel(is_y, y, z)); };
+    const auto choose = [&](F x, F y, F z) __attribute__((always_inline)) { return sel(is_z, z, sel(is_x, x, y)); };
     const F major = choose(d.x, d.y, d.z);
     const M low = major < none;
     const auto flip = [&](F x) __attribute__((always_inline)) { return sel(low, none - x, x); };
@@ -167,20 +188,47 @@ HALFLIT_INLINE CodePlace cube_place(const V3& d, const V3 (&step)[2], F (&du)[2]
         du[k] = ((across(step[k]) - s * along) * inv) * F(0.5f);
         dv[k] = ((down(step[k]) - t * along) * inv) * F(0.5f);
     }
-    const I base = sel(is_x, I(0), sel(is_y, I(2), I(4)));
+    const I base = sel(is_z, I(4), sel(is_x, I(0), I(2)));
     return {s * F(0.5f) + F(0.5f), t * F(0.5f) + F(0.5f), base + sel(low, I(1), I(0))};
 }
 
-/// Colours at fragments, whose coordinates and their changes are in the rows for both sets: u, v, and the third coordinate as kU1.
-inline void code_texels(const CodeLevels& levels, const shading::FragmentBlock& block, int count, TexelRows& out) {
+/// A coordinate about a pixel: it and 1 / w are linear in the window after a division by w.
+struct Around {
+    F value, right, down;  ///< it, and the changes of it over w, times w
+    F w_right, w_down;     ///< of 1 / w, times w
+    [[nodiscard]] HALFLIT_INLINE F at(F x, F y) const { return vdiv(value + (x * right + y * down), F(1.0f) + (x * w_right + y * w_down)); }
+};
+
+/// Levels are chosen from changes between pixels of squares of 2 x 2, as Mesa does: in pictures once a square, in cubes once a row and
+/// column of it. Squares are counted from the lower left corner of the picture.
+inline void code_texels(const TexelArgs& args, TexelRows& out) {
     using namespace shading;
+    const CodeLevels& levels = *args.levels;
+    const FragmentBlock& block = *args.block;
     const float most = static_cast<float>(levels.count - 1);
-    for (int at = 0; at < count; at += kWidth) {
-        F du[2] = {row(block, kDu0Dx, at), row(block, kDu0Dy, at)}, dv[2] = {row(block, kDv0Dx, at), row(block, kDv0Dy, at)};
-        CodePlace place{row(block, kU0, at), row(block, kV0, at), I(0)};
+    for (int at = 0; at < args.count; at += kWidth) {
+        const F inv_w = vdiv(F(1.0f), row(block, kV1, at));
+        const F w_right = vneg(row(block, kDv1Dx, at) * inv_w), w_down = vneg(row(block, kDv1Dy, at) * inv_w);
+        const auto around = [&](int of, int dx, int dy) __attribute__((always_inline)) {
+            const F value = row(block, of, at);
+            return Around{value, row(block, dx, at) + value * w_right, row(block, dy, at) + value * w_down, w_right, w_down};
+        };
+        const Around u = around(kU0, kDu0Dx, kDu0Dy), v = around(kV0, kDv0Dx, kDv0Dy);
+        // From the pixel to the lower left one of its square.
+        const I px = load(args.x_px + at), py = I(args.height - 1) - load(args.y_px + at);
+        const F left = to_float(I(0) - (px & I(1))), low = to_float(py & I(1)), one(1.0f), none(0.0f);
+        F du[2], dv[2];
+        CodePlace place{u.value, v.value, I(0)};
         if (levels.cube) {
-            const V3 step[2] = {{du[0], dv[0], row(block, kDu1Dx, at)}, {du[1], dv[1], row(block, kDu1Dy, at)}};
-            place = cube_place({place.u, place.v, row(block, kU1, at)}, step, du, dv);
+            const Around r = around(kU1, kDu1Dx, kDu1Dy);
+            const auto step_x = [&](const Around& of) __attribute__((always_inline)) { return of.at(left + one, none) - of.at(left, none); };
+            const auto step_y = [&](const Around& of) __attribute__((always_inline)) { return of.at(none, low - one) - of.at(none, low); };
+            const V3 step[2] = {{step_x(u), step_x(v), step_x(r)}, {step_y(u), step_y(v), step_y(r)}};
+            place = cube_place({u.value, v.value, r.value}, step, du, dv);
+        } else {
+            const F u0 = u.at(left, low), v0 = v.at(left, low);
+            du[0] = u.at(left + one, low) - u0, dv[0] = v.at(left + one, low) - v0;
+            du[1] = u.at(left, low - one) - u0, dv[1] = v.at(left, low - one) - v0;
         }
         const F w(static_cast<float>(levels.width[0])), h(static_cast<float>(levels.height[0]));
         F squared[2];
@@ -188,21 +236,24 @@ inline void code_texels(const CodeLevels& levels, const shading::FragmentBlock& 
             const F x = du[k] * w, y = dv[k] * h;
             squared[k] = x * x + y * y;
         }
-        // From 2^-126 on: the logarithm of less is not used.
-        const F rho = clamp(vmax(squared[0], squared[1]), F(1e-30f), F(1e30f));
-        const Log2 log = log2_parts(kLog2Degree5, rho);
-        const F lod = clamp((log.exponent + log.fraction) * F(0.5f), F(0.0f), F(most));
+        // Half of the logarithm, as a straight line from a power of two to the next.
+        const I rho = bits(clamp(vmax(squared[0], squared[1]), F(1e-30f), F(1e30f)));
+        const F exponent = to_float(shr<23>(rho) - I(127)), mantissa = from_bits((rho & I(0x7fffff)) | I(0x3f800000));
+        const F lod = clamp((exponent + (mantissa - one)) * F(0.5f), none, F(most));
         const F fine = vfloor(lod), part = lod - fine;
-        // Coordinates so large that a float has no fraction show some texel.
-        place.u = clamp(place.u, F(-4e6f), F(4e6f));
-        place.v = clamp(place.v, F(-4e6f), F(4e6f));
-        F rgb[3], next[3];
-        level_color(levels, place, round_to_int(fine), rgb);
-        if (any(part > F(0.0f))) {
-            level_color(levels, place, round_to_int(vmin(fine + F(1.0f), F(most))), next);
-            for (int c = 0; c < 3; ++c) rgb[c] = mad(part, next[c] - rgb[c], rgb[c]);
+        I codes[3] = {I(0), I(0), I(0)}, next_codes[3] = {I(0), I(0), I(0)};
+        F rgb[3] = {none, none, none}, next[3] = {none, none, none};
+        level_color(levels, place, round_to_int(fine), codes, rgb);
+        const bool between = any(part > none);
+        if (between) level_color(levels, place, round_to_int(vmin(fine + one, F(most))), next_codes, next);
+        const I share = round_to_int(vfloor(part * F(256.0f)));
+        for (int c = 0; c < 3; ++c) {
+            if (levels.in_codes)
+                rgb[c] = gather(levels.decoded, between ? lerp_codes(codes[c], next_codes[c], share) : codes[c]);
+            else if (between)
+                rgb[c] = mad(part, next[c] - rgb[c], rgb[c]);
+            store(out.rgb[c] + at, rgb[c]);
         }
-        for (int c = 0; c < 3; ++c) store(out.rgb[c] + at, rgb[c]);
     }
 }
 

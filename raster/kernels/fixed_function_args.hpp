@@ -35,7 +35,8 @@ struct FixedVertexArgs {
     float depth[4];      ///< slot 0: position and the distance along the view, this row times (x, y, z, 1); slot 1: nothing, and coordinates,
     bool generated;      ///< which are those of the mesh, or
     float planes[3][4];  ///< these rows times (x, y, z, 1) of the world; slot 2: colour and alpha
-    bool third;          ///< slot 4: the third coordinate
+    bool textured;       ///< slot 4: the third coordinate, and this row times (x, y, z, 1): clip w
+    float clip_w[4];
 };
 
 inline constexpr int kMostLevels = 16;
@@ -46,7 +47,17 @@ struct CodeLevels {
     const float* decoded;  ///< numbers of codes 0 to 255
     int count;             ///< of levels
     bool cube;
+    bool in_codes;  ///< filtered in whole codes; otherwise in numbers, as cubes and sRGB textures are
     std::int32_t first[kMostLevels], width[kMostLevels], height[kMostLevels];  ///< number of a level's first texel, sizes without borders
+};
+
+/// Fragments that are textured: coordinates and clip w, with their changes, are in the block's rows for both sets of coordinates.
+struct TexelArgs {
+    const CodeLevels* levels;
+    const shading::FragmentBlock* block;
+    const std::int32_t *x_px, *y_px;  ///< of the picture
+    int height;                       ///< of the picture, pixels
+    int count;                        ///< padded to a multiple of 16
 };
 
 /// Colours of textures at fragments.

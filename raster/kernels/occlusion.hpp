@@ -35,8 +35,7 @@ HALFLIT_INLINE void occlude_by(const TileRect& tile, const TriangleSource& sourc
     const int x0 = (min3(v0.x, v1.x, v2.x) + 255) >> 8, x1 = max3(v0.x, v1.x, v2.x) >> 8;
     const int y0 = (min3(v0.y, v1.y, v2.y) + 255) >> 8, y1 = max3(v0.y, v1.y, v2.y) >> 8;
     if ((x0 > box.x1) | (x1 < box.x0) | (y0 > box.y1) | (y1 < box.y0)) return;
-    const bool moved = points.offset_factor != 0.0f || points.offset_units != 0.0f;
-    if (!moved && !(vmax(vmax(v0.z, v1.z), v2.z) > box.farthest)) return;
+    if (points.offset_factor == 0.0f && !(vmax(vmax(v0.z, v1.z), v2.z) - points.offset_units > box.farthest)) return;
     const Edge edges[3] = {make_edge(v0, v1), make_edge(v1, v2), make_edge(v2, v0)};
     BoxEdge crossing[3];
     int n = 0;

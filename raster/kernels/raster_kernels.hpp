@@ -381,8 +381,7 @@ struct RasterKernels {
     /// square that follow. False: all blocks are finished.
     bool (*blend_splats)(const SplatRecord*, const std::uint32_t* list, int count, std::size_t remaining, int x_px, int y_px, SplatTile&);
     void (*fixed_vertices)(const FixedVertexArgs&);
-    /// Of `count` fragments, padded to a multiple of 16.
-    void (*code_texels)(const CodeLevels&, const shading::FragmentBlock&, int count, TexelRows&);
+    void (*code_texels)(const TexelArgs&, TexelRows&);
     void (*fixed_codes)(const CodeArgs&);
     /// Marks the places of a tile that `count` triangles hide.
     void (*occlude)(const TileRect&, const TriangleTable&, const std::uint32_t* ids, int count, const OcclusionPoints&);
