@@ -71,7 +71,7 @@ struct FixedFunctionRenderer::Impl {
     Pool<TileScratch> scratch;
     FixedPass picture, mirrored;
     ViewGeometry planes;
-    LightOcclusion occlusion;
+    std::vector<std::unique_ptr<LightOcclusion>> occlusions;  ///< of each light with shadows
     SampleImage image, in_mirror;
 
     Result<void> begin(const FixedFrame& frame);
@@ -148,7 +148,7 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
     // Depth and ids are those of the picture's own triangles where the same items are drawn, once a pixel.
     const bool has_planes = target.depth != nullptr || target.ids != nullptr;
     const bool others = !target.backdrop_depth && any([&](const FixedItem& item) {
-        return !item.in_planes || (item.stage == FixedStage::transparent && target.transparent_planes);
+        return (item.stage == FixedStage::solid && !item.in_planes) || (item.stage == FixedStage::transparent && target.transparent_planes);
     });
     const bool alone = has_planes && (target.rgb == nullptr || target.samples != 1 || others);
     if (alone) {
@@ -180,9 +180,14 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
         // All cast, as opaque surfaces; where one side does, of all items.
         for (int k = 0; k < kKinds; ++k) scene.materials[static_cast<std::size_t>(k)].alpha_mode = AlphaMode::opaque;
         if (frame.culls_faces && frame.shadow.back_faces_alone) sides(false);
-        Result<void> found{};
-        for (std::size_t i = 0; i < maps.size() && found; ++i)
-            found = picture.find_shadows(context, frame.shadow, static_cast<int>(i), maps[i], occlusion);
+        while (occlusions.size() < maps.size()) occlusions.push_back(std::make_unique<LightOcclusion>());
+        std::vector<Result<void>> of_lights(maps.size());
+        executor.run(static_cast<int>(maps.size()), [&](int i) {
+            const auto k = static_cast<std::size_t>(i);
+            of_lights[k] = picture.find_shadows(context, frame.shadow, i, maps[k], *occlusions[k]);
+        });
+        const auto failed = std::find_if(of_lights.begin(), of_lights.end(), [](const auto& result) { return !result; });
+        const Result<void> found = failed == of_lights.end() ? Result<void>{} : *failed;
         sides(true);
         for (int k = 0; k < kKinds; ++k)
             scene.materials[static_cast<std::size_t>(k)].alpha_mode = k >= kLayer ? AlphaMode::blend : k >= kBackdrop ? AlphaMode::mask : AlphaMode::opaque;

@@ -66,59 +66,32 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
         return static_cast<std::size_t>((at.y - y0) / side * view.tiles_x + (at.x - x0) / side);
     };
     const auto tiles = static_cast<std::size_t>(view.tile_count());
-    std::vector<std::uint32_t> next(tiles), counts(tiles);
-    std::vector<float> farthest(tiles, kFarAway);
     const float units = rule.offset_units * (1.0f / 16777216.0f);
-    const bool slopes = rule.offset_factor != 0.0f;  // triangles may be nearer than their corners
-    for (const std::span<ShadowLookup> group : groups)
-        for (const ShadowLookup& at : group) {
-            const std::size_t t = tile_of(at);
-            ++counts[t];
-            farthest[t] = std::min(farthest[t], slopes ? -1.0f : at.z + units);
-        }
-    if (auto ok = geometry_.make_before(casters, view, farthest, kernels, executor); !ok) return ok;
-
-    // Lookups by tiles, without those of tiles where nothing is.
     first_.assign(tiles + 1, 0);
+    for (const std::span<ShadowLookup> group : groups)
+        for (const ShadowLookup& at : group) ++first_[tile_of(at) + 1];
+    std::vector<std::uint32_t> next(tiles);
     for (std::size_t t = 0; t < tiles; ++t) {
-        if (counts[t] > 0 && geometry_.tile_is_empty(static_cast<int>(t))) counts[t] = 0;
-        first_[t + 1] = first_[t] + (counts[t] + kPadding - 1) / kPadding * kPadding;
         next[t] = first_[t];
+        first_[t + 1] = first_[t] + (first_[t + 1] + kPadding - 1) / kPadding * kPadding;
     }
     const std::size_t size = first_[tiles];
-    x_.assign(size, 0), y_.assign(size, 0), hidden_.assign(size, 0), z_.assign(size, kFarAway);
+    x_.assign(size, 0), y_.assign(size, 0), hidden_.assign(size, 0), z_.assign(size, kFarAway), farthest_.assign(tiles, kFarAway);
     place_.clear();
     for (const std::span<ShadowLookup> group : groups)
         for (const ShadowLookup& at : group) {
             const std::size_t t = tile_of(at);
-            place_.push_back(counts[t] == 0 ? ~0u : next[t]);
-            if (counts[t] == 0) continue;
             const std::uint32_t i = next[t]++;
+            place_.push_back(i);
             x_[i] = (at.x - x0) % side, y_[i] = (at.y - y0) % side, z_[i] = at.z;
+            farthest_[t] = std::min(farthest_[t], at.z);
         }
-    std::vector<int> asked;
-    for (std::size_t t = 0; t < tiles; ++t)
-        if (counts[t] > 0) asked.push_back(static_cast<int>(t));
-    executor.run(static_cast<int>(asked.size()), [&](int task) {
-        const int tile = asked[static_cast<std::size_t>(task)];
-        const std::uint32_t at = first_[static_cast<std::size_t>(tile)];
-        const OcclusionPoints points{x_.data() + at, y_.data() + at, z_.data() + at, static_cast<int>(first_[static_cast<std::size_t>(tile) + 1] - at),
-                                     rule.offset_factor, units, hidden_.data() + at};
-        std::vector<std::uint32_t> scratch, ids;
-        for (std::size_t c = 0; c < geometry_.chunks().size(); ++c) {
-            const std::span<const std::uint32_t> list = geometry_.tile_list(c, tile, scratch);
-            ids.clear();
-            for (const std::uint32_t record : list) ids.push_back(geometry_.source(c).id_base + record);
-            if (!ids.empty())
-                kernels.occlude(view.tile_rect(tile), geometry_.table(), ids.data(), static_cast<int>(ids.size()), points);
-        }
-    });
+    const OcclusionGrid grid{x0, y0, side, view.tiles_x, first_.data(), x_.data(), y_.data(), z_.data(), farthest_.data(), rule.offset_factor,
+                             units, hidden_.data()};
+    if (auto ok = geometry_.occlude(casters, view, grid, kernels, executor); !ok) return ok;
     std::size_t i = 0;
     for (const std::span<ShadowLookup> group : groups)
-        for (ShadowLookup& at : group) {
-            const std::uint32_t place = place_[i++];
-            at.hidden = place == ~0u ? 0 : hidden_[place];
-        }
+        for (ShadowLookup& at : group) at.hidden = hidden_[place_[i++]];
     return {};
 }
 

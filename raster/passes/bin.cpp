@@ -23,7 +23,7 @@ struct BinInput {
     const ScreenVertex* screen;
     const std::uint8_t* outcodes;
     std::uint8_t* groups_drawn;
-    std::span<const float> behind;  ///< ViewGeometry::make_before()'s; empty: all triangles are needed
+    const OcclusionGrid* occlusion;  ///< not null: triangles hide its places, and are not kept
     bool numbered;   ///< keep each record's submission number
     bool only_used;  ///< keep only the vertices that triangles use
     const RasterKernels& kernels;
@@ -54,6 +54,7 @@ public:
             if (in_.draws[run.draw].material != chunk_.material) chunk_.material = -1;
             add_triangles(run);
         }
+        if (in_.occlusion != nullptr) return count_memory();
         if (chunk_.listed) sort_by_tile();
         if (in_.only_used) {
             std::vector<std::uint64_t>().swap(chunk_.pairs);
@@ -230,8 +231,7 @@ private:
     /// v, a, b, c: in the order of positive area.
     void add_record(const std::uint32_t (&v)[3], const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, bool back,
                     const TileGrid::Tiles& tiles, const Source& source) {
-        const float nearest = in_.behind.empty() ? 0.0f : std::max({a.z, b.z, c.z});
-        if (!in_.behind.empty() && !is_needed(tiles, nearest)) return;
+        if (in_.occlusion != nullptr) return in_.kernels.occlude(*in_.occlusion, a, b, c, tiles.x0, tiles.y0, tiles.x1, tiles.y1);
         const bool round = is_round(a, b, c, source);
         if (round && source.triangle % 2 != 0) return;  // the point's first triangle stands for all of it
         if (is_hidden_by_last(a, b, c, source.draw)) return;
@@ -248,9 +248,7 @@ private:
         }
 
         if (!chunk_.listed) return;
-        const auto list = [&](int tile) {
-            if (is_needed(tile, nearest)) chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record);
-        };
+        const auto list = [&](int tile) { chunk_.pairs.push_back(static_cast<std::uint64_t>(tile) << 32 | record); };
         if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) {
             list(grid_.number(tiles.x0, tiles.y0));
             return;
@@ -260,15 +258,6 @@ private:
             chunk_.listed = false;
             chunk_.drop_lists();
         }
-    }
-
-    /// A triangle whose nearest corner has depth z.
-    [[nodiscard]] bool is_needed(int tile, float z) const { return in_.behind.empty() || z > in_.behind[static_cast<std::size_t>(tile)]; }
-    [[nodiscard]] bool is_needed(const TileGrid::Tiles& tiles, float z) const {
-        for (int y = tiles.y0; y <= tiles.y1; ++y)
-            for (int x = tiles.x0; x <= tiles.x1; ++x)
-                if (is_needed(grid_.number(x, y), z)) return true;
-        return false;
     }
 
     /// Points below this size, in 1/256 pixel, are squares: their corners are less than a sample apart from a circle.
@@ -336,10 +325,14 @@ private:
 
 void ViewGeometry::bin(const Batch& batch, const RasterKernels& kernels, Executor& executor) {
     const BinInput input{
-        *scene_, view_,     draws_,  screen_.data(), outcodes_.data(), groups_drawn_.data(), behind_, numbered_, has_only_used_vertices(),
+        *scene_, view_,     draws_,  screen_.data(), outcodes_.data(), groups_drawn_.data(), occlusion_, numbered_, has_only_used_vertices(),
         kernels, executor.stop()};
-    executor.run(static_cast<int>(batch.end_chunk - batch.first_chunk),
-                 [&](int i) { ChunkBuilder(input, *chunks_[batch.first_chunk + static_cast<std::size_t>(i)]).build(); });
+    const int count = static_cast<int>(batch.end_chunk - batch.first_chunk);
+    const auto build = [&](int i) { ChunkBuilder(input, *chunks_[batch.first_chunk + static_cast<std::size_t>(i)]).build(); };
+    if (occlusion_ == nullptr)
+        executor.run(count, build);
+    else
+        for (int i = 0; i < count; ++i) build(i);  // all write to one grid
 }
 
 Result<void> ViewGeometry::list_sources() {

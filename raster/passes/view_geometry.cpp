@@ -70,12 +70,12 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
     return {};
 }
 
-Result<void> ViewGeometry::make_before(const PreparedData& scene, const View& view, std::span<const float> behind,
-                                       const RasterKernels& kernels, Executor& executor) {
+Result<void> ViewGeometry::occlude(const PreparedData& scene, const View& view, const OcclusionGrid& grid, const RasterKernels& kernels,
+                                   Executor& executor) {
     forget();
-    behind_ = behind;
+    occlusion_ = &grid;
     auto made = make(scene, view, kernels, executor);
-    behind_ = {};
+    occlusion_ = nullptr;
     forget();
     return made;
 }

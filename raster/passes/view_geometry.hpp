@@ -116,9 +116,10 @@ public:
     /// Runs the passes, unless scene and view are those of the last call. Fails if there are more vertices or triangles than can be
     /// numbered. numbered: keep each record's submission number, for triangle_of() and has_coplanar().
     Result<void> make(const PreparedData& scene, const View& view, const RasterKernels& kernels, Executor& executor, bool numbered = false);
-    /// The same anew, without triangles that are nowhere nearer than a tile's reversed depth in `behind`; above 1: it needs none.
-    Result<void> make_before(const PreparedData& scene, const View& view, std::span<const float> behind, const RasterKernels& kernels,
-                             Executor& executor);
+    /// Marks the places that the view's triangles hide, without keeping any: make() has to run before other members are used. One thread
+    /// at a time writes to the grid.
+    Result<void> occlude(const PreparedData& scene, const View& view, const OcclusionGrid& grid, const RasterKernels& kernels,
+                         Executor& executor);
     /// Makes the next make() run the passes.
     void forget() { revision_ = {}; }
 
@@ -206,7 +207,7 @@ private:
     SceneRevision revision_;
     View view_;
     bool numbered_ = false;
-    std::span<const float> behind_;  ///< while make_before() runs
+    const OcclusionGrid* occlusion_ = nullptr;  ///< while occlude() runs
     std::uint64_t version_ = 0;
     Times times_ms_;
 
