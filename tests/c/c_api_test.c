@@ -1939,6 +1939,64 @@ static void test_values_as_text(void) {
     CHECK(codes[0] == 1 && codes[1] == 0 && codes[2] == 65535 && range[0] == 2.0 && range[1] == 4.0);
 }
 
+/// A box of the size 1 around the origin, seen from a distance of 4 along y, in memory as MuJoCo 2.2.2 has it.
+static void test_mujoco(void) {
+    unsigned char geom[248] = {0}, cameras[2 * 56] = {0};
+    const int32_t type = 6, none = -1, segid = 41, objtype = 5, objid = 7;
+    const float ones[3] = {1, 1, 1}, gray[4] = {0.5f, 0.5f, 0.5f, 1}, upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const float camera[14] = {0, -4, 0, 0, 1, 0, 0, 0, 1, 0, -0.04f, 0.04f, 0.1f, 50};
+    float depth[2][WIDTH * HEIGHT];
+    int32_t ids[WIDTH * HEIGHT], objects[2 * WIDTH * HEIGHT], i;
+    uint8_t rgb[3 * WIDTH * HEIGHT];
+    const int32_t middle = WIDTH * (HEIGHT / 2) + WIDTH / 2;
+    halflit_mujoco_layout layout;
+    halflit_mujoco_model model;
+    halflit_mujoco_scene scene;
+    halflit_mujoco_picture pictures[2];
+    halflit_mujoco* mujoco = NULL;
+
+    memcpy(geom, &type, 4), memcpy(geom + 4, &none, 4), memcpy(geom + 8, &objtype, 4), memcpy(geom + 12, &objid, 4);
+    memcpy(geom + 20, &none, 4), memcpy(geom + 32, &segid, 4);
+    memcpy(geom + 44, ones, 12), memcpy(geom + 68, upright, 36), memcpy(geom + 104, gray, 16);
+    memcpy(cameras, camera, 56), memcpy(cameras + 56, camera, 56);
+    CHECK_OK(halflit_mujoco_layout_init(&layout, sizeof layout));
+    CHECK(layout.geom_size == 248 && layout.light_size == 84 && layout.camera_size == 56 && layout.geom_matid == -1);
+    CHECK_OK(halflit_mujoco_model_init(&model, sizeof model));
+    CHECK_OK(halflit_mujoco_scene_init(&scene, sizeof scene));
+    scene.geoms = geom, scene.ngeom = 1, scene.camera = cameras;
+    for (i = 0; i < 2; ++i) {
+        CHECK_OK(halflit_mujoco_picture_init(&pictures[i], sizeof pictures[i]));
+        pictures[i].scene = &scene, pictures[i].width = WIDTH, pictures[i].height = HEIGHT;
+        pictures[i].depth = depth[i], pictures[i].depth_unit = i;
+    }
+    pictures[1].rgb = rgb, pictures[1].segid = ids, pictures[1].object = objects;
+
+    CHECK_FAILS(halflit_mujoco_create(&model, "2.3", NULL, &mujoco), HALFLIT_ERROR_USAGE, "look: '2.3', expected 2.2.2");
+    CHECK_FAILS(halflit_mujoco_create(NULL, "2.2.2", NULL, &mujoco), HALFLIT_ERROR_USAGE, "model is null");
+    model.nmesh = 1;
+    CHECK_FAILS(halflit_mujoco_create(&model, "2.2.2", NULL, &mujoco), HALFLIT_ERROR_BAD_INPUT, "mesh_vertadr is null");
+    model.nmesh = 0, layout.geom_pos = 240, model.layout = &layout;
+    CHECK_FAILS(halflit_mujoco_create(&model, "2.2.2", NULL, &mujoco), HALFLIT_ERROR_USAGE, "geom_pos is 240");
+    model.layout = NULL;
+    CHECK_OK(halflit_mujoco_create(&model, "2.2.2", NULL, &mujoco));
+    CHECK_OK(halflit_mujoco_render(mujoco, pictures, 2));
+    CHECK(fabsf(depth[1][middle] - 3) < 1e-4f && depth[1][0] == 50);
+    CHECK(fabsf(depth[0][middle] - (float)(50 / 49.9 - 5 / 49.9 / 3)) < 1e-5f && depth[0][0] == 1);
+    CHECK(ids[middle] == segid && ids[0] == -1 && objects[2 * middle] == objid && objects[2 * middle + 1] == objtype);
+    CHECK(rgb[3 * middle] == 38 && rgb[0] == 0);  // without a light, 0.3 of the color
+    CHECK_OK(halflit_mujoco_render(mujoco, pictures, 0));
+    pictures[1].samples = 2;
+    CHECK_FAILS(halflit_mujoco_render(mujoco, pictures, 2), HALFLIT_ERROR_USAGE, "samples is 2");
+    pictures[1].samples = 1, pictures[1].scene = NULL;
+    CHECK_FAILS(halflit_mujoco_render(mujoco, pictures, 2), HALFLIT_ERROR_USAGE, "scene is null");
+    pictures[1].scene = &scene, pictures[0].depth_unit = 2;
+    CHECK_FAILS(halflit_mujoco_render(mujoco, pictures, 2), HALFLIT_ERROR_USAGE, "depth_unit is 2");
+    CHECK_FAILS(halflit_mujoco_render(mujoco, NULL, 1), HALFLIT_ERROR_USAGE, "pictures is null");
+    CHECK_FAILS(halflit_mujoco_render(NULL, pictures, 1), HALFLIT_ERROR_USAGE, "mujoco is null");
+    halflit_mujoco_destroy(mujoco);
+    halflit_mujoco_destroy(NULL);
+}
+
 int main(void) {
     CHECK(halflit_last_error()[0] == '\0');
     CHECK(strchr(halflit_version(), '.') != NULL && halflit_pixel_epoch() >= 1);
@@ -1964,6 +2022,7 @@ int main(void) {
         test_files_with_z_up();
         test_calls();
         test_values_as_text();
+        test_mujoco();
     }
     test_saved_scenes();
     test_forged_scenes();

@@ -129,25 +129,34 @@ Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& e
     const bool with_ids = picture.segid != nullptr || picture.object != nullptr || as_colors;
     const bool of_color_pass = picture.depth != nullptr && picture.depth_of_color_pass;
     if (!colors && !with_ids && picture.depth == nullptr) return {};
-    request.segment_alone = !colors && !of_color_pass;
     if (auto ok = move_vertices(by, scene); !ok) return ok;
-    const auto made = make_frame(model_, scene, request);
-    if (!made) return tl::unexpected<Error>(made.error());
     const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
     if (with_ids) by.ids.resize(pixels);
-    const FixedTarget target{.width = picture.width,
-                             .height = picture.height,
-                             .samples = picture.samples,
-                             .bottom_up = picture.bottom_up,
-                             .rgb = colors ? picture.rgb : nullptr,
-                             .depth = picture.depth,
-                             .ids = with_ids ? by.ids.data() : nullptr,
-                             .transparent_planes = true,
-                             .backdrop_depth = of_color_pass};
-    if (auto ok = by.renderer.render(made->frame, target, execution); !ok) return ok;
-    if (with_ids) show_ids(picture, *made, by.ids, as_colors, flags[kIdColor] != 0);
-    if (picture.depth != nullptr) convert_depth(picture, made->frame.camera, pixels);
-    return {};
+    const auto pass = [&](Pass of, bool with_rgb, bool with_depth, bool ids) -> Result<void> {
+        if (!with_rgb && !with_depth && !ids) return {};
+        request.pass = of;
+        const auto made = make_frame(model_, scene, request);
+        if (!made) return tl::unexpected<Error>(made.error());
+        const FixedTarget target{.width = picture.width,
+                                 .height = picture.height,
+                                 .samples = with_rgb ? picture.samples : 1,
+                                 .bottom_up = picture.bottom_up,
+                                 .rgb = with_rgb ? picture.rgb : nullptr,
+                                 .depth = with_depth ? picture.depth : nullptr,
+                                 .ids = ids ? by.ids.data() : nullptr,
+                                 .transparent_planes = true,
+                                 .backdrop_depth = with_rgb && of_color_pass};
+        if (auto ok = by.renderer.render(made->frame, target, execution); !ok) return ok;
+        if (ids) show_ids(picture, *made, by.ids, as_colors, flags[kIdColor] != 0);
+        if (with_depth) convert_depth(picture, made->frame.camera, pixels);
+        return {};
+    };
+    // The planes of the segmentation pass, and the depth of a picture of one sample, come with the colors.
+    const bool joins_depth = colors && (!of_color_pass || picture.samples == 1), joins_ids = colors && !of_color_pass;
+    const bool with_depth = picture.depth != nullptr;
+    if (auto ok = pass(Pass::color, colors, with_depth && joins_depth, with_ids && joins_ids); !ok || (joins_depth && joins_ids)) return ok;
+    if (auto ok = pass(Pass::depth, false, of_color_pass && !joins_depth, false); !ok) return ok;
+    return pass(Pass::segment, false, with_depth && !of_color_pass && !joins_depth, with_ids && !joins_ids);
 }
 
 Result<void> Drawer::render(std::span<const Picture> pictures) {

@@ -1,5 +1,6 @@
 #include "apps/engine/mujoco/frame.hpp"
 
+#include "apps/engine/mujoco/geom_parts.hpp"
 #include "apps/engine/mujoco/room.hpp"
 
 #include <fmt/format.h>
@@ -15,38 +16,6 @@ constexpr double kOpaque = 0.995;       // alpha from which a geom is opaque
 constexpr float kSkyShare = 0.70f;      // radius of the sky, shares of the far plane's distance
 constexpr float kWidestShadow = 160;    // degrees
 constexpr std::int32_t kModelGeom = 5;  // mjOBJ_GEOM
-
-/// A mesh of a geom, scaled, then moved along the geom's z axis.
-struct Part {
-    int mesh = 0;
-    Vec3f scale{1, 1, 1};
-    float shift = 0;
-    bool mirrors = false;
-};
-
-/// A part of a primitive: factors on its size across z and along it. turned: half a turn about x.
-struct PartRow {
-    GeomType type;
-    Shape shape;
-    float across, along, shift;
-    bool turned = false;
-};
-constexpr PartRow kParts[] = {
-    {kSphere, Shape::sphere, 1, 1, 0},
-    {kEllipsoid, Shape::sphere, 1, 1, 0},
-    {kCylinder, Shape::cylinder, 1, 1, 0},
-    {kBox, Shape::box, 1, 1, 0},
-    {kLineBox, Shape::line_box, 1, 1, 0},
-    {kTriangle, Shape::triangle, 1, 1, 0},
-    {kLine, Shape::line, 0, 1, 0},
-    {kArrow, Shape::cylinder, 1, 1 / 6.0f, 1 / 6.0f},
-    {kArrow, Shape::cone, 1.75f, 1 / 6.0f, 2 / 6.0f},
-    {kArrow1, Shape::cylinder, 1, 1 / 6.0f, 1 / 6.0f},
-    {kArrow1, Shape::cone, 1, 1 / 6.0f, 2 / 6.0f},
-    {kArrow2, Shape::tube, 1, 1 / 3.0f, 0},
-    {kArrow2, Shape::cone, 1.75f, 1 / 6.0f, -2 / 6.0f, true},
-    {kArrow2, Shape::cone, 1.75f, 1 / 6.0f, 2 / 6.0f},
-};
 
 bool is_behind(Vec3f from, Vec3f point, Vec3f normal) { return dot(from - point, normal) < 0; }
 
@@ -92,13 +61,13 @@ public:
         made_.frame.culls_faces = flags_[kCullFace];
         made_.frame.adds_layers = flags_[kAdditive];
         made_.frame.line_width = 3 * model_.line_width;
-        if (request_.segment_alone) {
+        if (request_.pass == Pass::segment) {
             for (std::size_t i = 0; i < made_.geoms.size(); ++i)
                 if (made_.geoms[i].segid >= 0) add_items(i, FixedStage::solid);
             return std::move(made_);
         }
         find_mirror();
-        add_lights();
+        if (request_.pass == Pass::color) add_lights();
         add_geoms();
         if (flags_[kSkybox] && model_.sky >= 0) add_sky();
         if (flags_[kFog]) {
@@ -211,52 +180,9 @@ private:
             else if (static_cast<int>(i) != mirror_)
                 add_items(i, FixedStage::solid);
         }
+        if (request_.pass == Pass::depth) return;
         std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         for (const auto& [distance, i] : order) add_items(i, FixedStage::transparent);
-    }
-
-    /// The meshes that a geom is drawn with.
-    [[nodiscard]] std::vector<Part> parts_of(const Geom& g, bool mirrors) const {
-        const ModelMeshes& n = model_.numbers;
-        const Vec3f s = g.size;
-        switch (g.type) {
-            case kPlane:
-                if (g.dataid >= 0) return {{.mesh = n.planes + g.dataid, .mirrors = mirrors}};
-                return {{static_cast<int>(Shape::plane), {s.x, s.y, 1}, 0, mirrors}};
-            case kHField:
-                if (g.dataid < 0) return {};
-                return {{.mesh = n.hfields + g.dataid}};
-            case kMesh:
-            case kSdf:
-                if (g.dataid < 0) return {};
-                return {{.mesh = n.models + g.dataid}};
-            case kSkin:
-                if (scene_.skinvert == nullptr || scene_.skinnormal == nullptr || g.objid < 0) return {};
-                return {{.mesh = n.skins + g.objid}};
-            case kFlex:
-                if (scene_.flexfaceused == nullptr || scene_.flexface == nullptr || scene_.flexnormal == nullptr || g.objid < 0) return {};
-                return {{.mesh = n.flexes + g.objid}};
-            case kCapsule: {
-                const auto radius = static_cast<float>(0.5 * static_cast<double>(s.x + s.y));
-                return {{static_cast<int>(Shape::tube), s, 0},
-                        {static_cast<int>(Shape::upper_cap), {s.x, s.y, radius}, s.z - radius},
-                        {static_cast<int>(Shape::lower_cap), {s.x, s.y, radius}, radius - s.z}};
-            }
-            case kBox:
-                if (mirrors) return {{static_cast<int>(Shape::box_top), s, 0, true}, {static_cast<int>(Shape::box_rest), s}};
-                break;
-            default:
-                break;
-        }
-        std::vector<Part> parts;
-        for (const PartRow& row : kParts) {
-            if (row.type != g.type) continue;
-            const float turn = row.turned ? -1.0f : 1.0f;
-            const Vec3f scale =
-                row.across > 0 ? Vec3f{s.x * row.across, s.y * row.across * turn, s.z * row.along * turn} : Vec3f{1, 1, s.z};
-            parts.push_back({static_cast<int>(row.shape), scale, s.z * row.shift});
-        }
-        return parts;
     }
 
     void add_items(std::size_t index, FixedStage stage) {
@@ -264,7 +190,7 @@ private:
         const bool is_mirror = static_cast<int>(index) == mirror_ && made_.frame.has_mirror, behind = is_seen_from_behind(g);
         const bool is_soft = g.type == kSkin || g.type == kFlex, is_line = g.type == kLine || g.type == kLineBox;
         FixedItem item;
-        item.material = material_of(g, behind);
+        item.material = material_of(g, model_.cubes, behind);
         item.material.unlit = is_line;
         item.stage = stage;
         item.id = static_cast<std::uint32_t>(index) + 1;
@@ -273,8 +199,8 @@ private:
         item.in_mirror =
             static_cast<int>(index) != mirror_ && !(behind && made_.frame.has_mirror && !is_behind(head_in_mirror_, g.position, g.axes[2]));
         item.casts_shadow = !is_line;
-        item.in_planes = g.segid >= 0;
-        for (const Part& part : parts_of(g, is_mirror)) {
+        item.in_planes = g.segid >= 0 || request_.pass == Pass::depth;
+        for (const Part& part : parts_of(g, model_.numbers, scene_, is_mirror)) {
             item.mesh = part.mesh;
             item.mirrors = part.mirrors;
             item.world_from_object = is_soft
@@ -287,51 +213,16 @@ private:
         }
     }
 
-    [[nodiscard]] FixedMaterial material_of(const Geom& g, bool behind) const {
-        FixedMaterial m;
-        m.color = g.rgba;
-        if (behind) m.color.w = static_cast<float>(0.3 * static_cast<double>(m.color.w));
-        m.emission = Vec3f{g.rgba.x, g.rgba.y, g.rgba.z} * g.emission;
-        m.specular = g.specular;
-        m.shininess = std::clamp(g.shininess * 128.0f, 0.0f, 128.0f);
-        set_texture(g, m);
-        return m;
-    }
-
-    /// A texture by the mesh's own coordinates, or by the position in the shape: two coordinates of it, or its direction.
-    void set_texture(const Geom& g, FixedMaterial& m) const {
-        const TextureUse& use = g.use;
-        if (use.texture < 0) return;
-        const bool cube = model_.cubes[static_cast<std::size_t>(use.texture)];
-        if (g.texcoord > 0) {
-            if (!cube) m.texture = use.texture;  // OpenGL binds a cube to the wrong target
-            return;
-        }
-        m.texture = use.texture;
-        m.generated = true;
-        const float size[3] = {g.size.x, g.size.y, g.size.z};
-        if (cube) {
-            const auto scale = [&](int k) { return use.uniform ? size[k] : 1.0f; };
-            m.planes[0] = {scale(0), 0, 0, 0}, m.planes[1] = {0, scale(1), 0, 0}, m.planes[2] = {0, 0, scale(2), 0};
-            return;
-        }
-        float scale[2] = {use.repeat[0], use.repeat[1]};
-        for (int k = 0; k < 2; ++k) {
-            if (size[k] <= 0) continue;
-            // Planes of the model, meshes and height fields have their true size, the other shapes that of the unit shape.
-            if (g.dataid >= 0) scale[k] /= size[k];
-            if (use.uniform) scale[k] *= size[k];
-        }
-        m.planes[0] = {0.5f * scale[0], 0, 0, -0.5f}, m.planes[1] = {0, -0.5f * scale[1], 0, -0.5f};
-    }
-
     /// A cylinder around the head, and over it the haze of the first infinite plane.
     void add_sky() {
         FixedItem item;
         item.mesh = static_cast<int>(Shape::cylinder);
-        item.stage = FixedStage::backdrop;
+        // In a frame of depth alone it is a surface as others are.
+        const bool in_planes = request_.pass == Pass::depth;
+        item.stage = in_planes ? FixedStage::solid : FixedStage::backdrop;
         item.both_sides = true;
-        item.in_planes = item.in_mirror = item.casts_shadow = false;
+        item.in_planes = in_planes;
+        item.in_mirror = item.casts_shadow = false;
         item.material.color = {1, 1, 1, 1};
         item.material.unlit = item.material.generated = true;
         item.material.texture = model_.sky;
@@ -346,7 +237,7 @@ private:
         const float height = dot(head_ - plane->position, plane->axes[2]) / radius;
         if (height < 0) return;
         item.mesh = static_cast<int>(Shape::haze);
-        item.stage = FixedStage::haze;
+        if (!in_planes) item.stage = FixedStage::haze;
         item.material.texture = -1;
         item.material.generated = false;
         const Vec3d up = in_double(plane->axes[2]) * (r * static_cast<double>(height));

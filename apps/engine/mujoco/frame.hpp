@@ -22,11 +22,14 @@ struct FrameModel {
 /// Fails (bad_input) for materials whose texture is not there. The meshes are the caller's to take out of `made`.
 [[nodiscard]] Result<FrameModel> frame_model(const Model& model, const Look& look, const ModelMeshes& made);
 
+/// Passes of MuJoCo that a frame is for. depth: that of the color pass alone, where the sky has depth and transparent geoms have none.
+enum class Pass { color, segment, depth };
+
 struct FrameRequest {
     const std::byte* camera = nullptr;
     const std::uint8_t* flags = nullptr;
     int width = 0, height = 0;
-    bool segment_alone = false;  ///< nothing but the planes of MuJoCo's segmentation pass is drawn
+    Pass pass = Pass::color;
 };
 
 struct SceneFrame {

@@ -41,7 +41,7 @@ struct ArrayRow {
 
 /// Slices, stacks, quads: 250 make some hundred thousand triangles a shape, as none can be told from.
 constexpr int kFinest = 250;
-constexpr int kLargestShadowMap = 32768;
+constexpr int kLeastShadowMap = 4, kLargestShadowMap = 16384;  // texels on a side, if there are any
 
 }  // namespace
 
@@ -86,8 +86,9 @@ Result<void> check_model(const Model& model) {
     for (const CountRow& row : fineness)
         if (row.count < row.least || row.count > kFinest)
             return fail(ErrorCode::bad_input, fmt::format("{} is {}, expected {} to {}", row.name, row.count, row.least, kFinest));
-    if (model.shadowsize < 0 || model.shadowsize > kLargestShadowMap)
-        return fail(ErrorCode::bad_input, fmt::format("shadowsize is {}, expected 0 to {}", model.shadowsize, kLargestShadowMap));
+    if (model.shadowsize != 0 && (model.shadowsize < kLeastShadowMap || model.shadowsize > kLargestShadowMap))
+        return fail(ErrorCode::bad_input,
+                    fmt::format("shadowsize is {}, expected 0, or {} to {}", model.shadowsize, kLeastShadowMap, kLargestShadowMap));
     return {};
 }
 

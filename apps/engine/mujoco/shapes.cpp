@@ -108,17 +108,26 @@ void add_haze(Rings& rings, float r) {
     rings.band(ring(middle, 1), ring(1, 0));
 }
 
-/// The side of the unit cube at `side` on an axis (0 x, 1 y, 2 z), from quads x quads squares.
-void add_square(MeshBuilder& builder, int axis, float side, int quads) {
+/// A square of the side of the unit cube at `side` on an axis (0 x, 1 y, 2 z), which has quads x quads.
+void add_square(MeshBuilder& builder, int axis, float side, int quads, int x, int y) {
     const float step = 2.0f / static_cast<float>(quads);
     const auto corner = [&](int i, int j) {
         const float u = step * static_cast<float>(i) - 1.0f, v = step * static_cast<float>(j) - 1.0f;
         const Vec3f n{axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0};
         return Corner{axis == 0 ? Vec3f{side, u, v} : axis == 1 ? Vec3f{u, side, v} : Vec3f{u, v, side}, n};
     };
-    const bool reversed = (axis == 1) == (side > 0);
+    builder.quad(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1), (axis == 1) == (side > 0));
+}
+
+/// Squares of all sides in turn, as transparent boxes are blended where nothing is culled.
+Mesh make_box(int quads, bool with_top, bool with_rest) {
+    MeshBuilder builder;
     for (int x = 0; x < quads; ++x)
-        for (int y = 0; y < quads; ++y) builder.quad(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1), reversed);
+        for (int y = 0; y < quads; ++y)
+            for (const int axis : {2, 0, 1})
+                for (const float side : {1.0f, -1.0f})
+                    if (axis == 2 && side > 0 ? with_top : with_rest) add_square(builder, axis, side, quads, x, y);
+    return builder.take();
 }
 
 Mesh lines(std::vector<Vec3f> positions, std::vector<std::uint32_t> indices) {
@@ -168,25 +177,21 @@ Mesh round_shape(Shape shape, const Fineness& f) {
 }  // namespace
 
 Mesh make_shape(Shape shape, const Fineness& fineness) {
-    MeshBuilder flat;
     switch (shape) {
         case Shape::plane: {
-            add_square(flat, 2, 1, fineness.quads);
-            Mesh mesh = flat.take();
+            Mesh mesh = make_box(fineness.quads, true, false);
             for (Vec3f& p : mesh.positions) p.z = 0;
             return mesh;
         }
         case Shape::box:
         case Shape::box_top:
         case Shape::box_rest:
-            for (const int axis : {2, 0, 1})
-                for (const float side : {1.0f, -1.0f})
-                    if (shape == Shape::box || (shape == Shape::box_top) == (axis == 2 && side > 0))
-                        add_square(flat, axis, side, fineness.quads);
-            return flat.take();
-        case Shape::triangle:
+            return make_box(fineness.quads, shape != Shape::box_rest, shape != Shape::box_top);
+        case Shape::triangle: {
+            MeshBuilder flat;
             flat.triangle({{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 1}});
             return flat.take();
+        }
         case Shape::line:
             return lines({{0, 0, 0}, {0, 0, 1}}, {0, 1});
         case Shape::line_box:

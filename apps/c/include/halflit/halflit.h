@@ -979,8 +979,9 @@ HALFLIT_C_API void halflit_answer_destroy(halflit_answer* answer);
 
 // ---- MuJoCo: a simulator's pictures from its own arrays -----------------------------------------------------------------
 
-/// Draws what the classic renderer of MuJoCo draws, from a model's arrays and the arrays of scenes. It keeps shapes and textures. Members
-/// below that have the name of a member of mjModel, mjvScene, mjvGeom, mjvLight or mjvGLCamera mean what that one means.
+/// Draws what the classic renderer of MuJoCo draws, from a model's arrays and the arrays of scenes; labels, wireframes, stereo and the
+/// frame around a picture are left out. It keeps shapes and textures. Members below that have the name of a member of mjModel, mjvScene,
+/// mjvGeom, mjvLight or mjvGLCamera mean what that one means. One of these draws one call at a time.
 typedef struct halflit_mujoco halflit_mujoco;
 
 /// Where the members of mjvGeom, mjvLight and mjvGLCamera are in memory, in bytes from the start of the struct, so that the arrays of any
