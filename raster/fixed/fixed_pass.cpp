@@ -335,7 +335,8 @@ void FixedPass::compose(const FixedContext& context, const SampleImage* in_mirro
             });
         const auto blend = [&](const Layer& layer) {
             for_samples(layer.at, layer.samples, [&](int, int, int, std::uint32_t& sample) {
-                sample = blended(layer.code, sample, context.frame.adds_layers);
+                const bool adds = context.frame.adds_layers && context.frame.items[layer.item].stage == FixedStage::transparent;
+                sample = blended(layer.code, sample, adds);
             });
         };
         for (const Layer& layer : tile.layers) blend(layer);

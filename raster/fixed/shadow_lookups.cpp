@@ -9,7 +9,7 @@
 namespace halflit::raster {
 namespace {
 
-constexpr int kPadding = 16;
+constexpr std::size_t kRoom = 16;  // whole vectors are read
 constexpr float kFarAway = 2.0f;  ///< reversed depth that nothing is nearer than
 
 Mat4 clip_of(const FixedLight& light) {
@@ -70,13 +70,11 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     first_.assign(tiles + 1, 0);
     for (const std::span<ShadowLookup> group : groups)
         for (const ShadowLookup& at : group) ++first_[tile_of(at) + 1];
-    std::vector<std::uint32_t> next(tiles);
-    for (std::size_t t = 0; t < tiles; ++t) {
-        next[t] = first_[t];
-        first_[t + 1] = first_[t] + (first_[t + 1] + kPadding - 1) / kPadding * kPadding;
-    }
-    const std::size_t size = first_[tiles];
-    x_.assign(size, 0), y_.assign(size, 0), hidden_.assign(size, 0), z_.assign(size, kFarAway), farthest_.assign(tiles, kFarAway);
+    for (std::size_t t = 0; t < tiles; ++t) first_[t + 1] += first_[t];
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    const std::size_t size = first_[tiles] + kRoom;
+    x_.resize(size), y_.resize(size), z_.resize(size);
+    hidden_.assign(size, 0), farthest_.assign(tiles, kFarAway);
     place_.clear();
     for (const std::span<ShadowLookup> group : groups)
         for (const ShadowLookup& at : group) {

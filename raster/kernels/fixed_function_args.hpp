@@ -79,8 +79,8 @@ struct CodeArgs {
 /// Places in a light's view, at middles of texels, by tiles of it.
 struct OcclusionGrid {
     int x0, y0, tile_size, tiles_x;  ///< pixel where the first tile begins; side of a tile; tiles in a row
-    const std::uint32_t* first;      ///< of each tile its first place, a multiple of 16; one more at the end. Padding has depth 2
-    const std::int32_t *x, *y;       ///< pixels, from the tile's first one
+    const std::uint32_t* first;      ///< of each tile its first place; one more at the end
+    const std::int32_t *x, *y;       ///< pixels, from the tile's first one; these arrays have room for a whole vector at the end
     const float* z;                  ///< reversed depth
     const float* farthest;           ///< of each tile: least of its depths; 2: it has no places
     float offset_factor, offset_units;  ///< depths of triangles are moved away from the light by factor times the slope, and this

@@ -108,7 +108,7 @@ struct FixedFrame {
     Vec3f eye_ws{0, 0, 0};      ///< from where highlights are seen; usually the camera's position
     float ambient = 0.0f;       ///< of all surfaces, beside the lights
     bool culls_faces = true;    ///< false: both sides are drawn
-    bool adds_layers = false;   ///< haze and transparent items are added to what is behind, once, instead of covering it
+    bool adds_layers = false;   ///< transparent items are added to what is behind, once, instead of covering it
     bool has_mirror = false;
     FixedMirror mirror;
     float fog_start = 0, fog_end = 0;    ///< distances along the view; equal: there is no fog
