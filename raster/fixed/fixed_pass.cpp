@@ -20,11 +20,12 @@ shading::SlotMask light_slots(int lights) {
 
 constexpr std::uint32_t kRgb = 0xffffff;
 std::uint32_t channel(std::uint32_t code, int c) { return code >> (8 * c) & 0xffu; }
-/// Sums of channels, at most 255.
+/// Sums of red, green and blue, at most 255 each.
 std::uint32_t add_codes(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t sum = 0;
-    for (int c = 0; c < 3; ++c) sum |= std::min(channel(a, c) + channel(b, c), 255u) << (8 * c);
-    return sum;
+    constexpr std::uint32_t kHigh = 0x808080, kLow = 0x7f7f7f;
+    const std::uint32_t either = (a ^ b) & kHigh, low = (a & kLow) + (b & kLow);
+    const std::uint32_t over = ((a & b) | (either & low)) & kHigh;  // channels above 255
+    return ((low ^ either) | ((over << 1) - (over >> 7))) & kRgb;
 }
 /// a b / 255, rounded.
 std::uint32_t times(std::uint32_t a, std::uint32_t b) {
@@ -139,6 +140,7 @@ private:
         args.slots = slots;
         args.stride = 4 * __builtin_popcount(slots);
         args.gradients = gradients;
+        args.extrapolates = true;
         args.count = padded;
         args.ids = list.id;
         args.x_px = list.x_px;
@@ -176,6 +178,8 @@ private:
         alignas(64) std::uint32_t codes[kBlockSize];
         codes_of(shading::kTangentX, true, textured, true, padded, codes);
         const auto first = static_cast<std::uint32_t>(out_.fragments.size());
+        std::uint32_t last = kNoTriangle;
+        bool mirrors = false;
         for (int l = 0; l < count; ++l) {
             const auto at = static_cast<std::uint16_t>((list.y_px[l] - rect_.y) * kTileStride + (list.x_px[l] - rect_.x));
             const auto samples = static_cast<std::uint16_t>(list.samples[l]);
@@ -183,7 +187,7 @@ private:
                 out_.layers.push_back({codes[l], at, samples, static_cast<std::uint32_t>(item_number(list.id[l]))});
                 continue;
             }
-            const bool mirrors = item_of(list.id[l]).mirrors;
+            if (context_.frame.has_mirror && list.id[l] != last) last = list.id[l], mirrors = item_of(last).mirrors;
             out_.fragments.push_back({codes[l], at, samples, mirrors});
             if (!mirrors) continue;
             out_.x0 = std::min(out_.x0, list.x_px[l]), out_.x1 = std::max(out_.x1, list.x_px[l]);
@@ -196,14 +200,13 @@ private:
             interpolate(list, padded, *pass_.lights_[static_cast<std::size_t>(i / kLightsARecord)], light_slots(lights), false);
             for (int k = 0; k < lights; ++k) {
                 codes_of(kLightRows[k], false, textured, false, padded, codes);
-                Lit& lit = out_.lit[static_cast<std::size_t>(i + k)];
+                std::vector<ShadowLookup>& lit = out_.lit[static_cast<std::size_t>(i + k)];
                 const LightMap& map = maps_[static_cast<std::size_t>(i + k)];
                 for (int l = 0; l < count; ++l) {
                     if ((codes[l] & kRgb) == 0) continue;
                     const auto& lane = scratch_.block.lane;
-                    lit.fragment.push_back(first + static_cast<std::uint32_t>(l));
-                    lit.code.push_back(codes[l]);
-                    lit.lookups.push_back(map.of({lane[shading::kPosX][l], lane[shading::kPosY][l], lane[shading::kPosZ][l]}));
+                    lit.push_back({first + static_cast<std::uint32_t>(l), codes[l],
+                                   map.of({lane[shading::kPosX][l], lane[shading::kPosY][l], lane[shading::kPosZ][l]})});
                 }
             }
         }
@@ -279,7 +282,7 @@ Result<void> FixedPass::shade(const FixedContext& context, const View& view, con
         tile.fragments.clear();
         tile.layers.clear();
         tile.lit.resize(static_cast<std::size_t>(shadowed));
-        for (Lit& lit : tile.lit) lit.fragment.clear(), lit.code.clear(), lit.lookups.clear();
+        for (std::vector<ShadowLookup>& lit : tile.lit) lit.clear();
         tile.x0 = tile.y0 = view.region.x + view.region.width + view.region.y + view.region.height;
         tile.x1 = tile.y1 = -1;
         Pool<TileScratch>::Loan scratch(context.scratch);
@@ -303,7 +306,7 @@ Result<void> FixedPass::shade(const FixedContext& context, const View& view, con
 Result<void> FixedPass::find_shadows(const FixedContext& context, const ShadowRule& rule, int in_turn, const LightMap& map,
                                      LightOcclusion& occlusion) {
     std::vector<std::span<ShadowLookup>> groups;
-    for (Tile& tile : tiles_) groups.emplace_back(tile.lit[static_cast<std::size_t>(in_turn)].lookups);
+    for (Tile& tile : tiles_) groups.emplace_back(tile.lit[static_cast<std::size_t>(in_turn)]);
     return occlusion.find(context.scene, map, rule, groups, context.kernels, context.executor);
 }
 
@@ -315,11 +318,11 @@ void FixedPass::compose(const FixedContext& context, const SampleImage* in_mirro
     context.executor.run(view_.tile_count(), [&](int number) {
         Tile& tile = tiles_[static_cast<std::size_t>(number)];
         const TileRect rect = view_.tile_rect(number);
-        for (const Lit& lit : tile.lit)
-            for (std::size_t i = 0; i < lit.fragment.size(); ++i)
-                if (lit.lookups[i].hidden == 0) {
-                    std::uint32_t& code = tile.fragments[lit.fragment[i]].code;
-                    code = add_codes(code, lit.code[i]);
+        for (const std::vector<ShadowLookup>& lit : tile.lit)
+            for (const ShadowLookup& of : lit)
+                if (of.place.hidden == 0) {
+                    std::uint32_t& code = tile.fragments[of.fragment].code;
+                    code = add_codes(code, of.code);
                 }
         const auto for_samples = [&](std::uint16_t at, std::uint16_t samples, const auto& visit) {
             const int x = rect.x + at % kTileStride, y = rect.y + at / kTileStride;
@@ -327,8 +330,11 @@ void FixedPass::compose(const FixedContext& context, const SampleImage* in_mirro
             for (int s = 0; s < out.samples; ++s)
                 if (samples >> s & 1) visit(x, y, s, pixel[s]);
         };
-        for (const Fragment& fragment : tile.fragments)
-            for_samples(fragment.at, fragment.samples, [&](int x, int y, int s, std::uint32_t& sample) {
+        if (out.samples == 1 && in_mirror == nullptr)
+            for (const Fragment& fragment : tile.fragments)
+                out.codes[out.index(rect.x + fragment.at % kTileStride, rect.y + fragment.at / kTileStride)] = fragment.code & kRgb;
+        else
+            for (const Fragment& fragment : tile.fragments) for_samples(fragment.at, fragment.samples, [&](int x, int y, int s, std::uint32_t& sample) {
                 const bool seen = fragment.mirrors && in_mirror != nullptr;
                 sample = seen ? add_codes(fragment.code, in_mirror->codes[in_mirror->index(x, y) + static_cast<std::size_t>(s)])
                               : fragment.code & kRgb;

@@ -60,15 +60,10 @@ private:
         std::uint16_t at, samples;
         std::uint32_t item;
     };
-    /// Light of one light, where it is not 0.
-    struct Lit {
-        std::vector<std::uint32_t> fragment, code;
-        std::vector<ShadowLookup> lookups;
-    };
     struct Tile {
         std::vector<Fragment> fragments;
         std::vector<Layer> layers;
-        std::vector<Lit> lit;
+        std::vector<std::vector<ShadowLookup>> lit;  ///< of each light, where its light is not 0
         int x0, y0, x1, y1;  ///< pixels that mirror
     };
     class Shader;

@@ -204,12 +204,14 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
         const int row = target.bottom_up ? target.height - 1 - y : y;
         std::uint8_t* to = target.rgb + 3 * static_cast<std::size_t>(row) * static_cast<std::size_t>(target.width);
         const std::uint32_t* from = image.codes.data() + image.index(0, y);
-        for (int x = 0; x < target.width; ++x, to += 3, from += samples)
-            for (int c = 0; c < 3; ++c) {
-                std::uint32_t sum = samples / 2;
-                for (std::uint32_t s = 0; s < samples; ++s) sum += from[s] >> (8 * c) & 0xffu;
-                to[c] = static_cast<std::uint8_t>(sum / samples);
+        for (int x = 0; x < target.width; ++x, to += 3, from += samples) {
+            std::uint32_t red_blue = from[0] & 0xff00ff, green = from[0] >> 8 & 0xff;
+            if (samples > 1) {
+                for (std::uint32_t s = 1; s < samples; ++s) red_blue += from[s] & 0xff00ff, green += from[s] >> 8 & 0xff;
+                red_blue = (red_blue + 0x20002) >> 2 & 0xff00ff, green = (green + 2) >> 2;  // the mean of four, rounded
             }
+            to[0] = static_cast<std::uint8_t>(red_blue), to[1] = static_cast<std::uint8_t>(green), to[2] = static_cast<std::uint8_t>(red_blue >> 16);
+        }
     });
     return {};
 }

@@ -35,7 +35,7 @@ LightMap::LightMap(const FixedLight& light) : clip_from_world_(clip_of(light)), 
     view_ = window_view(inside, light.shadow_size, light.shadow_size);
 }
 
-ShadowLookup LightMap::of(Vec3f p) const {
+MapPlace LightMap::of(Vec3f p) const {
     const Vec4f clip = ((clip_from_world_.c[0] * p.x + clip_from_world_.c[1] * p.y) + clip_from_world_.c[2] * p.z) + clip_from_world_.c[3];
     const auto held = [](float x, float most) { return x > 0.0f ? (x < most ? x : most) : 0.0f; };
     const float inv = 1.0f / clip.w, last = size_ - 1.0f;
@@ -49,7 +49,7 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     // The part of the map that is asked for.
     int x0 = map.view().region.width, y0 = x0, x1 = -1, y1 = -1;
     for (const std::span<ShadowLookup> group : groups)
-        for (const ShadowLookup& at : group) {
+        for (const auto& [fragment, code, at] : group) {
             x0 = std::min(x0, at.x), x1 = std::max(x1, at.x);
             y0 = std::min(y0, at.y), y1 = std::max(y1, at.y);
         }
@@ -58,18 +58,19 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     view.mirrored = rule.back_faces_alone;
     // Small tiles, so that most triangles touch none that is asked for, but not too many.
     constexpr int kMostTiles = 1 << 13;
-    int side = 16;
-    while (side < kMaxTileSize && ((x1 - x0) / side + 1) * ((y1 - y0) / side + 1) > kMostTiles) side *= 2;
+    int shift = 4;
+    while (1 << shift < kMaxTileSize && (((x1 - x0) >> shift) + 1) * (((y1 - y0) >> shift) + 1) > kMostTiles) ++shift;
+    const int side = 1 << shift;
     view.tile_size = side;
     set_region(view, {x0, y0, x1 - x0 + 1, y1 - y0 + 1});
-    const auto tile_of = [&](const ShadowLookup& at) {
-        return static_cast<std::size_t>((at.y - y0) / side * view.tiles_x + (at.x - x0) / side);
+    const auto tile_of = [x0, y0, shift, row = view.tiles_x](const MapPlace& at) {
+        return static_cast<std::size_t>(((at.y - y0) >> shift) * row + ((at.x - x0) >> shift));
     };
     const auto tiles = static_cast<std::size_t>(view.tile_count());
     const float units = rule.offset_units * (1.0f / 16777216.0f);
     first_.assign(tiles + 1, 0);
     for (const std::span<ShadowLookup> group : groups)
-        for (const ShadowLookup& at : group) ++first_[tile_of(at) + 1];
+        for (const ShadowLookup& of : group) ++first_[tile_of(of.place) + 1];
     for (std::size_t t = 0; t < tiles; ++t) first_[t + 1] += first_[t];
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     const std::size_t size = first_[tiles] + kRoom;
@@ -77,11 +78,11 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     hidden_.assign(size, 0), farthest_.assign(tiles, kFarAway);
     place_.clear();
     for (const std::span<ShadowLookup> group : groups)
-        for (const ShadowLookup& at : group) {
+        for (const auto& [fragment, code, at] : group) {
             const std::size_t t = tile_of(at);
             const std::uint32_t i = next[t]++;
             place_.push_back(i);
-            x_[i] = (at.x - x0) % side, y_[i] = (at.y - y0) % side, z_[i] = at.z;
+            x_[i] = (at.x - x0) & (side - 1), y_[i] = (at.y - y0) & (side - 1), z_[i] = at.z;
             farthest_[t] = std::min(farthest_[t], at.z);
         }
     const OcclusionGrid grid{x0, y0, side, view.tiles_x, first_.data(), x_.data(), y_.data(), z_.data(), farthest_.data(), rule.offset_factor,
@@ -89,7 +90,7 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     if (auto ok = geometry_.occlude(casters, view, grid, kernels, executor); !ok) return ok;
     std::size_t i = 0;
     for (const std::span<ShadowLookup> group : groups)
-        for (ShadowLookup& at : group) at.hidden = hidden_[place_[i++]];
+        for (ShadowLookup& of : group) of.place.hidden = hidden_[place_[i++]];
     return {};
 }
 

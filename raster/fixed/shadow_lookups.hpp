@@ -9,19 +9,25 @@
 
 namespace halflit::raster {
 
-/// A fragment's place in a light's map. hidden: -1 if a caster is nearer to the light.
-struct ShadowLookup {
+/// A place in a light's map. hidden: -1 if a caster is nearer to the light.
+struct MapPlace {
     std::int32_t x, y;  ///< texel; y down, as in all views
     float z;            ///< reversed depth
     std::int32_t hidden;
+};
+
+/// A fragment that has some of a light, and where it looks its shadow up.
+struct ShadowLookup {
+    std::uint32_t fragment, code;
+    MapPlace place;
 };
 
 /// A light's map: the view that it is drawn from, and where surfaces look it up.
 class LightMap {
 public:
     explicit LightMap(const FixedLight& light);
-    /// The lookup of a point of the world.
-    [[nodiscard]] ShadowLookup of(Vec3f position_ws) const;
+    /// The place of a point of the world.
+    [[nodiscard]] MapPlace of(Vec3f position_ws) const;
     /// The whole map.
     [[nodiscard]] const View& view() const { return view_; }
 

@@ -45,7 +45,7 @@ HALFLIT_INLINE F cross(F ax, F ay, F bx, F by) { return ax * by - ay * bx; }
     }
 }
 
-HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, bool gradients) {
+HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, bool gradients, bool extrapolates) {
     const I cx = shl<8>(px), cy = shl<8>(py);
     F dx[3], dy[3];
     for (int k = 0; k < 3; ++k) {
@@ -60,14 +60,16 @@ HALFLIT_INLINE Barycentrics barycentrics(const TriangleLanes& t, I px, I py, boo
         }
     };
     edges(dx, dy);
-    if (any(vmin(vmin(e[0], e[1]), e[2]) < F(0.0f))) {
+    if (!extrapolates && any(vmin(vmin(e[0], e[1]), e[2]) < F(0.0f))) {
         F moved_x[3] = {dx[0], dx[1], dx[2]}, moved_y[3] = {dy[0], dy[1], dy[2]};
         move_inside(moved_x, moved_y);
         edges(moved_x, moved_y);
     }
-    const F w0 = vmax(e[0], F(0.0f)) * t.inv_w[0];
-    const F w1 = vmax(e[1], F(0.0f)) * t.inv_w[1];
-    const F w2 = vmax(e[2], F(0.0f)) * t.inv_w[2];
+    if (!extrapolates)
+        for (F& edge : e) edge = vmax(edge, F(0.0f));
+    const F w0 = e[0] * t.inv_w[0];
+    const F w1 = e[1] * t.inv_w[1];
+    const F w2 = e[2] * t.inv_w[2];
     const F sum = (w0 + w1) + w2;
     const F inv = sel(sum > F(0.0f), vdiv(F(1.0f), sum), F(0.0f));
     Barycentrics b;
@@ -139,7 +141,7 @@ HALFLIT_INLINE CornerLanes corner_lanes(const Corners& corners) {
 template <class Corners>
 HALFLIT_INLINE void interpolate_lanes(const InterpolateArgs& args, const TriangleLanes& t, const Corners& corners, F side,
                                       shading::FragmentBlock& block, int at) {
-    const Barycentrics b = barycentrics(t, load(args.x_px + at), load(args.y_px + at), args.gradients);
+    const Barycentrics b = barycentrics(t, load(args.x_px + at), load(args.y_px + at), args.gradients, args.extrapolates);
     int offset = 0;
     for (int q = 0; q < shading::kSlotCount; ++q) {
         if (!(args.slots & (1u << q))) continue;

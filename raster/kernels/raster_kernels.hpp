@@ -188,6 +188,7 @@ struct InterpolateArgs {
     bool gradients;      ///< fill the kDu.. rows
     bool facing;         ///< fill kFacing
     bool shadow_offset;  ///< fill the kShadowX.. rows; needs slots 0 and 1
+    bool extrapolates;   ///< a pixel's centre beside the triangle has the values of its plane, as in OpenGL; false: of the nearest point
     int count;           ///< fragments, padded to a multiple of 16 with copies of the last one
     const std::uint32_t* ids;
     const std::int32_t *x_px, *y_px;

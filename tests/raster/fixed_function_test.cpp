@@ -262,7 +262,7 @@ TEST_CASE("fixed function: what a light's map hides is what the whole map shows"
         executor.configure({});
         std::vector<ShadowLookup> asked;
         for (int i = 0; i < 3000; ++i)
-            asked.push_back({static_cast<int>(random.real32(0, 199.9f)), static_cast<int>(random.real32(0, 199.9f)), random.real32(0, 1), 0});
+            asked.push_back({0, 0, {static_cast<int>(random.real32(0, 199.9f)), static_cast<int>(random.real32(0, 199.9f)), random.real32(0, 1), 0}});
         const std::span<ShadowLookup> groups[] = {std::span(asked).first(1000), std::span(asked).subspan(1000)};
         LightOcclusion occlusion;
         REQUIRE(occlusion.find(*prepared, map, rule, groups, kernels, executor));
@@ -281,7 +281,7 @@ TEST_CASE("fixed function: what a light's map hides is what the whole map shows"
                     depth[static_cast<std::size_t>((rect.y + y) * 200 + rect.x + x)] = scratch->buffers.depth[0][y * kTileStride + x];
         }
         int hidden = 0;
-        for (const ShadowLookup& at : asked) {
+        for (const auto& [fragment, code, at] : asked) {
             const bool expected = depth[static_cast<std::size_t>(at.y * 200 + at.x)] > at.z;
             CHECK((at.hidden != 0) == expected);
             hidden += expected ? 1 : 0;
