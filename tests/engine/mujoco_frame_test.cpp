@@ -3,6 +3,7 @@
 #include "tests/engine/raw_scene.hpp"
 #include "tests/support/catch.hpp"
 
+#include <cmath>
 #include <limits>
 
 using namespace halflit;
@@ -60,6 +61,20 @@ TEST_CASE("mujoco frame: transparent geoms come from front to back, and planes l
     const SceneFrame made = frame_of(raw);
     CHECK(ids(made, FixedStage::solid) == std::vector<std::uint32_t>{3});
     CHECK(ids(made, FixedStage::transparent) == std::vector<std::uint32_t>{5, 4, 2, 1});
+}
+
+TEST_CASE("mujoco frame: the sky and its haze come after opaque geoms and before transparent ones", "[engine][mujoco]") {
+    const Layout at;
+    RawScene raw;
+    raw.add(kSphere, {0, 1, 0}, {1, 1, 1}, {1, 1, 1, 0.5f});
+    raw.set(raw.add(kPlane, {0, 0, -1}, {0, 0, 1}), at.geom_dataid, -1);
+    FrameModel model = bare();
+    model.sky = 0, model.cubes = {true};
+    std::vector<FixedStage> stages;
+    for (const FixedItem& item : frame_of(raw, model).frame.items) stages.push_back(item.stage);
+    CHECK(stages == std::vector{FixedStage::solid, FixedStage::backdrop, FixedStage::haze, FixedStage::transparent});
+    raw.look_from({0, -4, -2}, {0, 1, 0});  // below the plane
+    CHECK(ids(frame_of(raw, model), FixedStage::haze).empty());
 }
 
 TEST_CASE("mujoco frame: a plane from behind is a pale one whose other side is culled", "[engine][mujoco]") {
@@ -146,6 +161,7 @@ TEST_CASE("mujoco frame: a scene that is turned, scaled and moved with its camer
     RawScene raw;
     raw.add(kSphere, {0, 1, 0}, {1, 1, 1});
     raw.add_light({0, 0, 3}, {0, 0, -1}, true);
+    raw.set_light(0, Layout().light_attenuation, Vec3f{1, 0.25f, 0});
     Scene scene = raw.scene();
     scene.enabletransform = true;
     scene.scale = 2;
@@ -153,13 +169,23 @@ TEST_CASE("mujoco frame: a scene that is turned, scaled and moved with its camer
     scene.rotate[0] = 0, scene.rotate[3] = 1;  // half a turn about z
     const auto made = make_frame(bare(), scene, request(scene));
     REQUIRE(made);
-    const Mat4 place = made->frame.items[0].world_from_object;
-    CHECK(place.c[0] == Vec4f{-2, 0, 0, 0});
-    CHECK(place.c[2] == Vec4f{0, 0, 2, 0});
-    CHECK(place.c[3] == Vec4f{5, -2, 0, 1});
-    CHECK(made->frame.lights[0].position_ws == Vec3f{5, 0, 6});
-    CHECK(made->frame.lights[0].shadow_far == 100);
-    scene.scale = 0;
+    // The camera at (0, -4, 2) is brought into the model instead, and lengths of its frustum with it.
+    CHECK(made->frame.items[0].world_from_object.c[3] == Vec4f{0, 1, 0, 1});
+    CHECK(made->frame.camera.position_ws == Vec3f{2.5f, 2, 1});
+    CHECK(made->frame.camera.forward_ws.y == Approx(-1 / std::sqrt(1.16)));
+    CHECK(made->frame.camera.far_z == 25);
+    CHECK(made->frame.lights[0].position_ws == Vec3f{0, 0, 3});
+    CHECK(made->frame.lights[0].attenuation[1] == 0.5f);
+    CHECK(made->frame.lights[0].shadow_far == 50);
+    // A rotation that is no unit quaternion stretches, which MuJoCo does not count where the head is.
+    scene.rotate[3] = 2;
+    const auto stretched = make_frame(bare(), scene, request(scene));
+    REQUIRE(stretched);
+    CHECK(stretched->frame.camera.position_ws == Vec3f{0.625f, 0.5f, 0.25f});
+    CHECK(stretched->frame.camera.far_z == 6.25f);
+    scene.rotate[3] = 0;
+    CHECK(!make_frame(bare(), scene, request(scene)));
+    scene.rotate[3] = 1, scene.scale = 0;
     CHECK(!make_frame(bare(), scene, request(scene)));
 }
 

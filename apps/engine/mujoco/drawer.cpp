@@ -50,13 +50,12 @@ void show_ids(const Picture& picture, const SceneFrame& made, std::span<const st
 }
 
 /// depth: 1 at the near plane, 0 at the far plane.
-void convert_depth(const Picture& picture, const FixedCamera& camera, std::size_t pixels) {
-    const double near = camera.near_z, range = static_cast<double>(camera.far_z) - near, product = near * camera.far_z;
+void convert_depth(const Picture& picture, const SceneFrame& made, std::size_t pixels) {
+    const double near = made.near_z, far = made.far_z, range = far - near;
+    const bool parallel = made.frame.camera.parallel;
     for (float* depth = picture.depth; depth < picture.depth + pixels; ++depth) {
         const double d = *depth;
-        *depth = static_cast<float>(!picture.depth_is_distance ? 1 - d
-                                    : camera.parallel          ? camera.far_z - d * range
-                                                               : product / (near + d * range));
+        *depth = static_cast<float>(!picture.depth_is_distance ? 1 - d : parallel ? far - d * range : near * far / (near + d * range));
     }
 }
 
@@ -148,7 +147,7 @@ Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& e
                                  .backdrop_depth = with_rgb && of_color_pass};
         if (auto ok = by.renderer.render(made->frame, target, execution); !ok) return ok;
         if (ids) show_ids(picture, *made, by.ids, as_colors, flags[kIdColor] != 0);
-        if (with_depth) convert_depth(picture, made->frame.camera, pixels);
+        if (with_depth) convert_depth(picture, *made, pixels);
         return {};
     };
     // The planes of the segmentation pass, and the depth of a picture of one sample, come with the colors.

@@ -17,6 +17,16 @@ constexpr float kSkyShare = 0.70f;      // radius of the sky, shares of the far 
 constexpr float kWidestShadow = 160;    // degrees
 constexpr std::int32_t kModelGeom = 5;  // mjOBJ_GEOM
 
+/// Columns, rounded to float.
+Mat4 matrix(Vec3d x, Vec3d y, Vec3d z, Vec3d origin) {
+    const auto column = [](Vec3d v, float w) {
+        return Vec4f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
+    };
+    Mat4 made;
+    made.c[0] = column(x, 0), made.c[1] = column(y, 0), made.c[2] = column(z, 0), made.c[3] = column(origin, 1);
+    return made;
+}
+
 bool is_behind(Vec3f from, Vec3f point, Vec3f normal) { return dot(from - point, normal) < 0; }
 
 /// A sphere around the geom that holds it, as MuJoCo estimates it.
@@ -55,7 +65,7 @@ public:
         for (int i = 0; i < scene_.ngeom; ++i) {
             auto geom = read_geom(model_.layout, scene_, i, model_.materials, static_cast<int>(model_.cubes.size()));
             if (!geom) return tl::unexpected<Error>(geom.error());
-            if (auto ok = check(*geom, i); !ok) return tl::unexpected<Error>(ok.error());
+            if (auto ok = check_geom(*geom, i, model_.numbers); !ok) return tl::unexpected<Error>(ok.error());
             made_.geoms.push_back(*geom);
         }
         made_.frame.culls_faces = flags_[kCullFace];
@@ -68,10 +78,11 @@ public:
         }
         find_mirror();
         if (request_.pass == Pass::color) add_lights();
-        add_geoms();
+        add_opaque();
         if (flags_[kSkybox] && model_.sky >= 0) add_sky();
+        if (request_.pass == Pass::color) add_transparent();
         if (flags_[kFog]) {
-            made_.frame.fog_start = model_.fog_start, made_.frame.fog_end = model_.fog_end;
+            made_.frame.fog_start = model_.fog_start / room_.unit(), made_.frame.fog_end = model_.fog_end / room_.unit();
             made_.frame.fog_color = model_.fog_color;
         }
         return std::move(made_);
@@ -82,39 +93,17 @@ private:
         const float half = from.width > 0
                                ? from.width
                                : 0.5f * static_cast<float>(request_.width) / static_cast<float>(request_.height) * (from.top - from.bottom);
-        FixedCamera& camera = made_.frame.camera;
-        camera.position_ws = from.position, camera.forward_ws = from.forward, camera.up_ws = from.up;
-        camera.parallel = from.orthographic;
-        camera.left = from.center - half, camera.right = from.center + half;
-        camera.bottom = from.bottom, camera.top = from.top;
-        camera.near_z = from.near_z, camera.far_z = from.far_z;
-        made_.frame.eye_ws = from.position;
-        head_ = room_.point_in_model(from.position);
+        head_ = room_.head_in_model(from.position);
         gaze_ = room_.direction_in_model(from.forward);
-    }
-
-    /// Fails for a mesh that is not there.
-    [[nodiscard]] Result<void> check(const Geom& geom, int index) const {
-        const ModelMeshes& n = model_.numbers;
-        const auto [name, found, count] = [&]() -> std::tuple<const char*, int, int> {
-            switch (geom.type) {
-                case kPlane:
-                    return {"dataid", geom.dataid, n.models - n.planes};
-                case kHField:
-                    return {"dataid", geom.dataid, n.skins - n.hfields};
-                case kMesh:
-                case kSdf:
-                    return {"dataid", geom.dataid, n.hfields - n.models};
-                case kSkin:
-                    return {"objid", geom.objid, n.flexes - n.skins};
-                case kFlex:
-                    return {"objid", geom.objid, n.end - n.flexes};
-                default:
-                    return {"", -1, 0};
-            }
-        }();
-        if (found < count) return {};
-        return fail(ErrorCode::bad_input, fmt::format("geom {}: {} is {}, the model has {}", index, name, found, count));
+        made_.near_z = from.near_z, made_.far_z = from.far_z;
+        FixedCamera& camera = made_.frame.camera;
+        camera.position_ws = made_.frame.eye_ws = room_.point_in_model(from.position);
+        camera.forward_ws = gaze_, camera.up_ws = room_.direction_in_model(from.up);
+        camera.parallel = from.orthographic;
+        const float unit = room_.unit();
+        camera.left = (from.center - half) / unit, camera.right = (from.center + half) / unit;
+        camera.bottom = from.bottom / unit, camera.top = from.top / unit;
+        camera.near_z = from.near_z / unit, camera.far_z = from.far_z / unit;
     }
 
     [[nodiscard]] bool is_seen_from_behind(const Geom& g) const { return g.type == kPlane && is_behind(head_, g.position, g.axes[2]); }
@@ -131,13 +120,12 @@ private:
         const Vec3f point = g.type == kBox ? g.position + g.axes[2] * g.size.z : g.position;
         if (is_behind(head_, point, g.axes[2])) return;
         made_.frame.has_mirror = true;
-        made_.frame.mirror = {room_.point(point), normalize_or(room_.direction(g.axes[2]), {0, 0, 1}), g.reflectance};
+        made_.frame.mirror = {point, normalize_or(g.axes[2], {0, 0, 1}), g.reflectance};
         head_in_mirror_ = head_ - g.axes[2] * (2 * dot(head_ - point, g.axes[2]));
     }
 
     void add_lights() {
-        const FixedCamera& camera = made_.frame.camera;
-        const float scale = room_.scale();
+        const float unit = room_.unit();
         bool any = false;
         for (int i = 0; i < scene_.nlight; ++i) {
             Light from = read_light(model_.layout, scene_, i);
@@ -145,22 +133,24 @@ private:
             any = true;
             if (i >= kGlLights) continue;
             if (i == 0 && from.headlight) from.position = head_, from.direction = gaze_;
-            FixedLight light{.position_ws = room_.point(from.position),
-                             .direction_ws = room_.direction(from.direction),
+            FixedLight light{.position_ws = from.position,
+                             .direction_ws = from.direction,
                              .directional = from.kind == LightKind::directional,
                              .ambient = from.ambient,
                              .diffuse = from.diffuse,
                              .specular = from.specular};
             if (!light.directional) {
-                std::copy(from.attenuation, from.attenuation + 3, light.attenuation);
+                // Distances are the room's.
+                const float factors[3] = {1, unit, unit * unit};
+                for (int k = 0; k < 3; ++k) light.attenuation[k] = from.attenuation[k] * factors[k];
                 light.cutoff_deg = from.cutoff >= 0 && from.cutoff <= 90 ? from.cutoff : 180.0f;  // OpenGL refuses others
                 light.exponent = from.exponent >= 0 && from.exponent <= 128 ? from.exponent : 0.0f;
             }
             if (from.castshadow && flags_[kShadow]) {
                 light.shadow_size = model_.shadow_size;
                 light.shadow_fov_deg = std::min(2 * from.cutoff * model_.shadow_scale, kWidestShadow);
-                light.shadow_half_width = model_.shadow_clip * scale;
-                light.shadow_near = camera.near_z * scale, light.shadow_far = camera.far_z * scale;
+                light.shadow_half_width = model_.shadow_clip;
+                light.shadow_near = made_.near_z, light.shadow_far = made_.far_z;
             }
             made_.frame.lights.push_back(light);
         }
@@ -169,18 +159,20 @@ private:
         made_.frame.shadow = {look.back_faces_alone && flags_[kCullFace], look.offset_factor, look.offset_units};
     }
 
-    /// The mirror, other opaque geoms in their order, and transparent ones from front to back.
-    void add_geoms() {
-        std::vector<std::pair<float, std::size_t>> order;
+    /// The mirror, then the others in their order.
+    void add_opaque() {
         if (mirror_ >= 0) add_items(static_cast<std::size_t>(mirror_), FixedStage::solid);
+        for (std::size_t i = 0; i < made_.geoms.size(); ++i)
+            if (!is_transparent(made_.geoms[i]) && static_cast<int>(i) != mirror_) add_items(i, FixedStage::solid);
+    }
+
+    /// From front to back.
+    void add_transparent() {
+        std::vector<std::pair<float, std::size_t>> order;
         for (std::size_t i = 0; i < made_.geoms.size(); ++i) {
             const Geom& g = made_.geoms[i];
-            if (is_transparent(g))
-                order.emplace_back(g.type == kPlane ? 1e10f : length(g.position - head_) - bound_of(g), i);
-            else if (static_cast<int>(i) != mirror_)
-                add_items(i, FixedStage::solid);
+            if (is_transparent(g)) order.emplace_back(g.type == kPlane ? 1e10f : length(g.position - head_) - bound_of(g), i);
         }
-        if (request_.pass == Pass::depth) return;
         std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         for (const auto& [distance, i] : order) add_items(i, FixedStage::transparent);
     }
@@ -203,12 +195,11 @@ private:
         for (const Part& part : parts_of(g, model_.numbers, scene_, is_mirror)) {
             item.mesh = part.mesh;
             item.mirrors = part.mirrors;
-            item.world_from_object = is_soft
-                                         ? room_.matrix({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}})
-                                         : room_.matrix({in_double(g.axes[0]) * static_cast<double>(part.scale.x),
-                                                         in_double(g.axes[1]) * static_cast<double>(part.scale.y),
-                                                         in_double(g.axes[2]) * static_cast<double>(part.scale.z),
-                                                         in_double(g.position) + in_double(g.axes[2]) * static_cast<double>(part.shift)});
+            if (!is_soft)
+                item.world_from_object = matrix(in_double(g.axes[0]) * static_cast<double>(part.scale.x),
+                                                in_double(g.axes[1]) * static_cast<double>(part.scale.y),
+                                                in_double(g.axes[2]) * static_cast<double>(part.scale.z),
+                                                in_double(g.position) + in_double(g.axes[2]) * static_cast<double>(part.shift));
             made_.frame.items.push_back(item);
         }
     }
@@ -227,9 +218,9 @@ private:
         item.material.unlit = item.material.generated = true;
         item.material.texture = model_.sky;
         item.material.planes[0] = {1, 0, 0, 0}, item.material.planes[1] = {0, 0, 1, 0}, item.material.planes[2] = {0, -1, 0, 0};
-        const float radius = made_.frame.camera.far_z * kSkyShare / room_.scale();
+        const float radius = made_.far_z * kSkyShare / room_.scale();
         const auto r = static_cast<double>(radius);
-        item.world_from_object = room_.matrix({{r, 0, 0}, {0, r, 0}, {0, 0, r}, in_double(head_)});
+        item.world_from_object = matrix({r, 0, 0}, {0, r, 0}, {0, 0, r}, in_double(head_));
         made_.frame.items.push_back(item);
         const auto plane = std::find_if(made_.geoms.begin(), made_.geoms.end(),
                                         [](const Geom& g) { return g.type == kPlane && g.size.x == 0 && g.size.y == 0; });
@@ -241,7 +232,7 @@ private:
         item.material.texture = -1;
         item.material.generated = false;
         const Vec3d up = in_double(plane->axes[2]) * (r * static_cast<double>(height));
-        item.world_from_object = room_.matrix({in_double(plane->axes[0]) * r, in_double(plane->axes[1]) * r, up, in_double(head_) - up});
+        item.world_from_object = matrix(in_double(plane->axes[0]) * r, in_double(plane->axes[1]) * r, up, in_double(head_) - up);
         made_.frame.items.push_back(item);
     }
 

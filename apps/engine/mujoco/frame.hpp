@@ -33,8 +33,9 @@ struct FrameRequest {
 };
 
 struct SceneFrame {
-    FixedFrame frame;
-    std::vector<Geom> geoms;  ///< FixedItem::id is an index + 1
+    FixedFrame frame;                 ///< in the model's space and unit
+    float near_z = 0.1f, far_z = 50;  ///< of the camera, in the unit of its room
+    std::vector<Geom> geoms;          ///< FixedItem::id is an index + 1
 };
 
 /// Fails (bad_input) for an index out of range and numbers that are not finite, (usage) for a camera that sees nothing.

@@ -1,6 +1,9 @@
 #include "apps/engine/mujoco/geom_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <tuple>
 
 namespace halflit::engine::mujoco {
 namespace {
@@ -57,6 +60,28 @@ void set_texture(const Geom& g, const std::vector<bool>& cubes, FixedMaterial& m
 }
 
 }  // namespace
+
+Result<void> check_geom(const Geom& geom, int index, const ModelMeshes& n) {
+    const auto [name, found, count] = [&]() -> std::tuple<const char*, int, int> {
+        switch (geom.type) {
+            case kPlane:
+                return {"dataid", geom.dataid, n.models - n.planes};
+            case kHField:
+                return {"dataid", geom.dataid, n.skins - n.hfields};
+            case kMesh:
+            case kSdf:
+                return {"dataid", geom.dataid, n.hfields - n.models};
+            case kSkin:
+                return {"objid", geom.objid, n.flexes - n.skins};
+            case kFlex:
+                return {"objid", geom.objid, n.end - n.flexes};
+            default:
+                return {"", -1, 0};
+        }
+    }();
+    if (found < count) return {};
+    return fail(ErrorCode::bad_input, fmt::format("geom {}: {} is {}, the model has {}", index, name, found, count));
+}
 
 std::vector<Part> parts_of(const Geom& g, const ModelMeshes& n, const Scene& scene, bool mirrors) {
     const Vec3f s = g.size;

@@ -16,6 +16,9 @@ struct Part {
     bool mirrors = false;
 };
 
+/// Fails (bad_input) for a mesh that is not there.
+[[nodiscard]] Result<void> check_geom(const Geom& geom, int index, const ModelMeshes& numbers);
+
 /// The meshes of a geom, whose indices are in range; none for a type that nothing is drawn for. mirrors: it is the mirror.
 [[nodiscard]] std::vector<Part> parts_of(const Geom& geom, const ModelMeshes& numbers, const Scene& scene, bool mirrors);
 
