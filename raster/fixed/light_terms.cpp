@@ -99,6 +99,8 @@ void VertexLight::fill(const FixedItem& item, const VertexRecordArgs& args, cons
     std::vector<FixedLightTerms> terms;
     if (in_turn >= 0) {
         light.separate = true;
+        // Solid items without light have their color again in the pass of each light, as far as it is not in shadow.
+        for (int k = 0; k < 3; ++k) light.color[k] = material.unlit && item.stage == FixedStage::solid ? color[k] : 0.0f;
         if (material.unlit) material.color = {0, 0, 0, 0}, material.specular = 0.0f;
         for (int i = in_turn; i < in_turn + count; ++i) terms.push_back(on_material(lights_[shadowed_[static_cast<std::size_t>(i)]], material));
     } else {

@@ -41,7 +41,10 @@ MapPlace LightMap::of(Vec3f p) const {
     const float inv = 1.0f / clip.w, last = size_ - 1.0f;
     const int x = static_cast<int>(held((clip.x * inv * 0.5f + 0.5f) * size_, last));
     const int up = static_cast<int>(held((clip.y * inv * 0.5f + 0.5f) * size_, last));
-    return {x, static_cast<int>(last) - up, held(clip.z * inv, 1.0f), 0};
+    // Triangles beyond the map reach into its border, which is empty.
+    const int end = static_cast<int>(last);
+    const bool inside = (x > 0) & (x < end) & (up > 0) & (up < end);
+    return {x, end - up, inside ? held(clip.z * inv, 1.0f) : kFarAway, 0};
 }
 
 Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& map, const ShadowRule& rule,

@@ -58,7 +58,7 @@ HALFLIT_INLINE void fixed_vertices_at(const FixedVertexArgs& args, int first) {
     float* out = args.out + first * args.stride;
     if (args.separate) {
         for (int i = 0; i < args.light_count; ++i, out += 4) {
-            F sum[3] = {F(0.0f), F(0.0f), F(0.0f)};
+            F sum[3] = {F(args.color[0]), F(args.color[1]), F(args.color[2])};
             add_light(args.lights[i], args.shininess, p, n, view, sum);
             store4(out, args.stride, hold_unit(sum[0]), hold_unit(sum[1]), hold_unit(sum[2]), F(0.0f));
         }

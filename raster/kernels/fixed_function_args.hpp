@@ -31,7 +31,7 @@ struct FixedVertexArgs {
     const FixedLightTerms* lights;
     int light_count;
     bool unlit;     ///< `color` times the vertex colour
-    bool separate;  ///< a group of four floats for each light; otherwise the lights are added to `color`, and these are written:
+    bool separate;  ///< a group of four floats for each light, added to `color`; otherwise the lights are added to `color`, and these are written:
     float depth[4];      ///< slot 0: position and the distance along the view, this row times (x, y, z, 1); slot 1: nothing, and coordinates,
     bool generated;      ///< which are those of the mesh, or
     float planes[3][4];  ///< these rows times (x, y, z, 1) of the world; slot 2: colour and alpha

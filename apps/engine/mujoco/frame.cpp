@@ -72,7 +72,7 @@ public:
         made_.frame.adds_layers = flags_[kAdditive];
         made_.frame.line_width = 3 * model_.line_width;
         if (request_.pass == Pass::segment) {
-            for (std::size_t i = 0; i < made_.geoms.size(); ++i)
+            for (std::size_t i = made_.geoms.size(); i-- > 0;)
                 if (made_.geoms[i].segid >= 0) add_items(i, FixedStage::solid);
             return std::move(made_);
         }
@@ -159,11 +159,11 @@ private:
         made_.frame.shadow = {look.back_faces_alone && flags_[kCullFace], look.offset_factor, look.offset_units};
     }
 
-    /// The mirror, then the others in their order.
+    /// Of equal depths the first item stays here and the last geom there: the reverse of the mirror and then the others.
     void add_opaque() {
-        if (mirror_ >= 0) add_items(static_cast<std::size_t>(mirror_), FixedStage::solid);
-        for (std::size_t i = 0; i < made_.geoms.size(); ++i)
+        for (std::size_t i = made_.geoms.size(); i-- > 0;)
             if (!is_transparent(made_.geoms[i]) && static_cast<int>(i) != mirror_) add_items(i, FixedStage::solid);
+        if (mirror_ >= 0) add_items(static_cast<std::size_t>(mirror_), FixedStage::solid);
     }
 
     /// From front to back.

@@ -10,7 +10,7 @@ namespace {
 
 // Later releases draw both sides into shadow maps, with the offset that they set where OpenGL has clip control.
 constexpr Look kLooks[] = {
-    {"2.2.2", false, true, 0.0f, 0.0f},
+    {"2.2.2", false, true, 0.0f, 1.0f},
     {"3.3.2", false, false, 1.5f, 4.0f},
     {"3.3.3", true, false, 1.5f, 4.0f},
 };
