@@ -11,30 +11,17 @@ export function find_chromium() {
   return kNames.find((name) => spawnSync(name, ["--version"], { stdio: "ignore" }).status === 0);
 }
 
-export class Page {
-  // prelude: a script that runs before those of the page.
-  static async open(address, { width = 1280, height = 800, phone = false, prelude = "" } = {}) {
-    const page = new Page();
-    page.folder = mkdtempSync(join(tmpdir(), "halflit-chromium-"));
-    page.process = spawn(find_chromium(), ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+// One process for all pages of a test. Messages of a page have its session.
+class Browser {
+  constructor() {
+    this.folder = mkdtempSync(join(tmpdir(), "halflit-chromium-"));
+    this.process = spawn(find_chromium(), ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
       "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars", "--remote-debugging-pipe",
-      `--user-data-dir=${page.folder}`, "about:blank"], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
-    page.exited = new Promise((resolve) => page.process.once("exit", resolve));
-    page.waiting = new Map();
-    page.faults = [];      // exceptions and errors of the page
-    page.requests = [];    // addresses that the page asked for
-    page.listen();
-    const { targetId } = await page.send("Target.createTarget", { url: "about:blank" });
-    page.session = (await page.send("Target.attachToTarget", { targetId, flatten: true })).sessionId;
-    for (const domain of ["Page", "Runtime", "Network", "DOM", "Log"]) await page.send(`${domain}.enable`);
-    await page.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: phone ? 2 : 1, mobile: phone });
-    if (phone) await page.send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
-    if (prelude) await page.send("Page.addScriptToEvaluateOnNewDocument", { source: prelude });
-    await page.send("Page.navigate", { url: address });
-    return page;
-  }
-
-  listen() {
+      `--user-data-dir=${this.folder}`, "about:blank"], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+    this.exited = new Promise((resolve) => this.process.once("exit", resolve));
+    this.waiting = new Map();
+    this.pages = new Map();
+    this.last = 0;
     let rest = "";
     this.process.stdio[4].setEncoding("utf8");
     this.process.stdio[4].on("data", (text) => {
@@ -44,12 +31,57 @@ export class Page {
     });
   }
 
-  take({ id, result, error, method, params }) {
+  take({ id, result, error, method, params, sessionId }) {
     if (id) {
       const { resolve, reject } = this.waiting.get(id);
       this.waiting.delete(id);
       error ? reject(new Error(error.message)) : resolve(result);
-    } else if (method === "Runtime.exceptionThrown") {
+    } else {
+      this.pages.get(sessionId)?.take(method, params);
+    }
+  }
+
+  send(method, params = {}, sessionId = undefined) {
+    const id = ++this.last;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.process.stdio[3].write(JSON.stringify({ id, method, params, sessionId }) + "\0");
+    });
+  }
+}
+
+let browser = null;
+
+export async function close_browser() {
+  if (!browser) return;
+  browser.send("Browser.close").catch(() => {});
+  await browser.exited;
+  rmSync(browser.folder, { recursive: true, force: true, maxRetries: 50, retryDelay: 100 });  // its helpers end a little later
+  browser = null;
+}
+
+export class Page {
+  // A page with a profile of its own. prelude: a script that runs before those of the page.
+  static async open(address, { width = 1280, height = 800, phone = false, prelude = "" } = {}) {
+    const page = new Page();
+    browser ??= new Browser();
+    page.faults = [];      // exceptions and errors of the page
+    page.requests = [];    // addresses that the page asked for
+    page.profile = (await browser.send("Target.createBrowserContext")).browserContextId;
+    const { targetId } = await browser.send("Target.createTarget", { url: "about:blank", browserContextId: page.profile });
+    page.session = (await browser.send("Target.attachToTarget", { targetId, flatten: true })).sessionId;
+    browser.pages.set(page.session, page);
+    for (const domain of ["Page", "Runtime", "Network", "DOM", "Log"]) await page.send(`${domain}.enable`);
+    page.phone = phone;
+    await page.resize(width, height);
+    if (phone) await page.send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+    if (prelude) await page.send("Page.addScriptToEvaluateOnNewDocument", { source: prelude });
+    await page.send("Page.navigate", { url: address });
+    return page;
+  }
+
+  take(method, params) {
+    if (method === "Runtime.exceptionThrown") {
       this.faults.push(params.exceptionDetails.exception?.description || params.exceptionDetails.text);
     } else if (method === "Log.entryAdded" && params.entry.level === "error") {
       this.faults.push(params.entry.text);
@@ -59,11 +91,11 @@ export class Page {
   }
 
   send(method, params = {}) {
-    const id = (this.last = (this.last || 0) + 1);
-    return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject });
-      this.process.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.session }) + "\0");
-    });
+    return browser.send(method, params, this.session);
+  }
+
+  resize(width, height) {
+    return this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: this.phone ? 2 : 1, mobile: this.phone });
   }
 
   // The value of an expression, of what it promises if it is a promise.
@@ -105,8 +137,7 @@ export class Page {
   }
 
   async close() {
-    this.send("Browser.close").catch(() => {});
-    await this.exited;
-    rmSync(this.folder, { recursive: true, force: true, maxRetries: 50, retryDelay: 100 });  // its helpers end a little later
+    browser.pages.delete(this.session);
+    await browser.send("Target.disposeBrowserContext", { browserContextId: this.profile });
   }
 }

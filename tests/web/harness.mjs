@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:f
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { zip_of } from "../npm/zip.mjs";
-import { Page, find_chromium } from "./chromium.mjs";
+import { Page, close_browser, find_chromium } from "./chromium.mjs";
 
 const [program, page_file, source, work] = process.argv.slice(2).map((path) => resolve(path));
 const kSkipped = 77;
@@ -42,7 +42,8 @@ export function begin() {
 }
 
 // Failures again, as a log that is cut short has its end.
-export function end() {
+export async function end() {
+  await close_browser();
   console.log(failures.length === 0 ? "all as expected" : `${failures.length} failed\n${failures.join("\n")}`);
   process.exit(failures.length === 0 ? 0 : 1);
 }
@@ -123,16 +124,11 @@ export async function open_model(page, files) {
   await page.until(`halflit.current().state.scene === '${files[0]}' && halflit.current().idle`);
 }
 
-// A page of its own for one test.
-export async function with_page(options, hash, test) {
+// A page of its own for tests that follow each other.
+export async function with_page(options, hash, ...tests) {
   const page = await Page.open(address + hash, options);
-  try {
-    await test(page);
-  } catch (error) {
-    check(`${test.name} runs: ${error.message}`, false);
-  } finally {
-    await page.close();
-  }
+  for (const test of tests) await test(page).catch((error) => check(`${test.name} runs: ${error.message}`, false));
+  await page.close();
 }
 
 // Answers of an engine of its own, made in the page, for one task after the other: [kind, task].

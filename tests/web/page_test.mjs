@@ -19,7 +19,7 @@ async function test_page(page) {
   check("the page's first picture is the program's", (await shown_hash(page)) === native_hash(["demo", "--size", "640x360"]));
 
   // A turn by the mouse, and its speed.
-  const turns = Number(process.env.HALFLIT_WEB_TURNS || 8);
+  const turns = Number(process.env.HALFLIT_WEB_TURNS || 2);
   const rates = [];
   for (let i = 0; i < 3; ++i) {
     await page.value(`(async () => {

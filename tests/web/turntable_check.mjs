@@ -1,6 +1,6 @@
 // Turns a page of Scene.turntable() in headless Chromium:   node turntable_check.mjs PAGE WIDTH HEIGHT
 // Prints the numbers of the frames that are shown, as JSON. Exit code 77, skipped, without Chromium.
-import { find_chromium, Page } from "./chromium.mjs";
+import { close_browser, find_chromium, Page } from "./chromium.mjs";
 
 if (!find_chromium()) process.exit(77);
 const [address, width, height] = [`file://${process.argv[2]}`, Number(process.argv[3]), Number(process.argv[4])];
@@ -28,4 +28,5 @@ for (const touch of [false, true]) {
     await page.close();
   }
 }
+await close_browser();
 console.log(JSON.stringify(found));
