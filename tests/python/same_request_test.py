@@ -57,13 +57,14 @@ def requests():
         values = [True, False] if SETTINGS[name][1] == "bool" else NUMBERS.get(name) or NAMED[name]
         yield from ({name: value} for value in values)
     yield from OTHERS
-    # Pairs of settings, each with a value that is not its default.
+    # Pairs of settings, each with a value that is not its default. A third of them, in which each setting meets seven others.
     pairs = {"samples": 8, "tone_curve": "aces", "accuracy": "reference", "specular": "ggx", "shading_rate": "flat", "shadows": "hard",
              "sky_shadows": 16, "edges": "feature", "hidden_edges": "dashed", "edge_width": 2.5, "contact_shadow": 0.25, "max_error": 1.0,
              "texture_detail": "nearest", "anisotropy": 2, "normal_scale": 0.5, "environment_bands": 3, "shadow_size": 128,
              "shadow_fade": 2, "max_layers": 3, "zoom": 1.5, "fov": 50, "view": "right"}  # fmt: skip
-    for (a, x), (b, y) in itertools.combinations(pairs.items(), 2):
-        yield {a: x, b: y}
+    for (i, (a, x)), (j, (b, y)) in itertools.combinations(enumerate(pairs.items()), 2):
+        if (i + j) % 3 == 0 or "HALFLIT_ALL_PAIRS" in os.environ:
+            yield {a: x, b: y}
 
 
 def flags_of(request):
@@ -131,7 +132,7 @@ class SameRequestTest(unittest.TestCase):
     def test_program_render_and_call_answer_alike(self):
         warnings.simplefilter("ignore")
         asked = list(requests())
-        self.assertGreaterEqual(len(asked), 300)
+        self.assertGreaterEqual(len(asked), 200)
         different = []
         for request in asked:
             answers = {"program": of_program(request), "render": of_render(request), "call": of_call(request)}
