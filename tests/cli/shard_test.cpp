@@ -3,6 +3,7 @@
 #include "tests/cli/program.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
 
 #include <array>
