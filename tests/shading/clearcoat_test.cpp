@@ -108,11 +108,11 @@ TEST_CASE(
     "[shading][clearcoat][environment]") {
     // S: what GGX with F0 0.04 reflects of a uniform sky. F takes more from the base than a rough coat gives back at grazing views.
     double most = 0, least = 1, least_facing = 1, least_smooth = 1;
+    Bench bench;
+    bench.set_sky(1.0);
     for (int i = 0; i <= 20; ++i)
         for (int j = 1; j <= 20; ++j) {
-            Bench bench;
             bench.material.clearcoat_roughness = static_cast<float>(i / 20.0);
-            bench.set_sky(1.0);
             const double cosine = j / 20.0, got = bench.seen_from(at_angle(std::acos(cosine))).x;
             most = std::max(most, got), least = std::min(least, got);
             if (cosine > 0.29) least_facing = std::min(least_facing, got);

@@ -72,7 +72,7 @@ TEST_CASE("sheen: the albedo's table is the integral of Charlie's distribution",
     double worst = 0, worst_rough = 0, sum = 0;
     int compared = 0;
     for (int i = 0; i <= 31; ++i)
-        for (int j = 1; j <= 30; ++j) {
+        for (int j = 1; j <= 30; j += 2) {
             const double roughness = 0.07 + 0.03 * i, n_dot_v = std::pow(j / 30.0, 2);
             const double error = std::fabs(std::min(table_albedo(roughness, n_dot_v), 1.0) - std::min(albedo(roughness, n_dot_v), 1.0));
             worst = std::max(worst, error), sum += error, ++compared;
