@@ -181,7 +181,7 @@ TEST_CASE("batches: triangles share a budget of memory with the scene's textures
     Random random(5);
     Shot shot = any_shot(5);
     shot.scene.instances.clear();
-    shot.settings.region = {}, shot.settings.samples = 16;
+    shot.settings.region = {}, shot.settings.samples = 4, shot.settings.shadows = ShadowMode::off;
     add_balls(random, shot.scene, 1500);
     shot.camera = frame_scene(shot.scene, static_cast<float>(kViewWidth) / kViewHeight, {});
     const MadeView alone = made_view(shot);
