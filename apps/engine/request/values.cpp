@@ -1,7 +1,7 @@
 #include "apps/engine/request/values.hpp"
 
+#include "apps/engine/request/flags.hpp"
 #include "apps/io/files/text.hpp"
-
 #include "sh/trig.hpp"
 #include "sh/vec3d.hpp"
 #include "shading/model/constants.hpp"
@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -41,6 +42,20 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
     }
 }
 
+/// N values with commas between them; none where one of them is wrong. read(text, index): a value, or what is false.
+template <class T, std::size_t N, class Read>
+std::optional<std::array<T, N>> read_all(std::string_view text, const Read& read) {
+    const auto parts = split(text, ",");
+    if (parts.size() != N) return std::nullopt;
+    std::array<T, N> values{};
+    for (std::size_t i = 0; i < N; ++i) {
+        const auto value = read(parts[i], i);
+        if (!value) return std::nullopt;
+        values[i] = static_cast<T>(*value);
+    }
+    return values;
+}
+
 float linear_from_srgb8(int code) { return static_cast<float>(shading::linear_from_srgb(static_cast<double>(code) / 255.0)); }
 
 struct NamedColor {
@@ -64,6 +79,13 @@ Result<Vec3f> parse_vec3(std::string_view text) {
 }
 
 constexpr float kMax = std::numeric_limits<float>::max();
+constexpr int kMostPixels = std::numeric_limits<int>::max();
+
+/// A number within the range of float.
+std::optional<double> coordinate(std::string_view text, std::size_t /*index*/ = 0) {
+    const auto value = number<double>(text);
+    return value && std::abs(*value) <= double{kMax} ? value : std::nullopt;
+}
 
 /// Reads half angles in degrees; the light holds radians.
 Result<void> set_cone(Light& light, std::string_view text) {
@@ -73,13 +95,6 @@ Result<void> set_cone(Light& light, std::string_view text) {
     if (parts.size() > 2 || !outer || !inner || *inner > *outer) return expected("cone=OUT or cone=IN,OUT with 0 <= IN <= OUT <= 90", text);
     light.inner_cone_rad = static_cast<float>(*inner * (kPi / 180.0));
     light.outer_cone_rad = static_cast<float>(*outer * (kPi / 180.0));
-    return {};
-}
-
-template <class T>
-Result<void> store(T& target, const Result<T>& value) {
-    if (!value) return tl::unexpected(value.error());
-    target = *value;
     return {};
 }
 
@@ -94,10 +109,10 @@ Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view
         light.direction_ws = normalize_or(*direction, {0, -1, 0});
         return {};
     }
-    if (key == "pos" && placed) return store(given.position, parse_point(value));
-    if (key == "range" && placed) return store(light.range, parse_float(value, 0.0f, kMax));
-    if (key == "radius" && placed) return store(light.source_radius, parse_float(value, 0.0f, kMax));
-    if (key == "size" && placed) return store(light.shadow_radius, parse_float(value, 0.0f, kMax));
+    if (key == "pos" && placed) return assign(given.position, parse_point(value));
+    if (key == "range" && placed) return assign(light.range, parse_float(value, 0.0f, kMax));
+    if (key == "radius" && placed) return assign(light.source_radius, parse_float(value, 0.0f, kMax));
+    if (key == "size" && placed) return assign(light.shadow_radius, parse_float(value, 0.0f, kMax));
     if (key == "size") {
         const auto degrees = parse_float(value, 0.0f, 40.0f);
         if (!degrees) return tl::unexpected(degrees.error());
@@ -105,8 +120,8 @@ Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view
         return {};
     }
     if (key == "cone" && cone) return set_cone(light, value);
-    if (key == "power" && cone) return store(light.cone_power, parse_float(value, 0.0f, shading::kMaxConePower));
-    if (key == "intensity") return store(intensity, parse_float(value, 0.0f, 1e9f));
+    if (key == "power" && cone) return assign(light.cone_power, parse_float(value, 0.0f, shading::kMaxConePower));
+    if (key == "intensity") return assign(intensity, parse_float(value, 0.0f, 1e9f));
     if (key == "color") {
         const auto color = parse_color(value);
         if (!color) return tl::unexpected(color.error());
@@ -156,36 +171,21 @@ Result<double> parse_time(std::string_view text) {
 }
 
 Result<Vec3d> parse_point(std::string_view text) {
-    const auto parts = split(text, ",");
-    double values[3] = {};
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto value = number<double>(parts[i]);
-        if (parts.size() != 3 || !value || !(std::abs(*value) <= double{kMax})) return expected("3 numbers separated by commas", text);
-        values[i] = *value;
-    }
-    return Vec3d{values[0], values[1], values[2]};
+    const auto xyz = read_all<double, 3>(text, coordinate);
+    if (!xyz) return expected("3 numbers separated by commas", text);
+    return Vec3d{(*xyz)[0], (*xyz)[1], (*xyz)[2]};
 }
 
 Result<GivenSection> parse_section(std::string_view text) {
     const auto wrong = [&] { return expected("AXIS=POSITION, as x=0.5, -x=0.5 or y=50%, or four numbers A,B,C,D", text); };
     GivenSection out;
     out.text = text;
-    const auto read = [](std::string_view digits) -> std::optional<double> {
-        const auto value = number<double>(digits);
-        return value && std::abs(*value) <= double{kMax} ? value : std::nullopt;
-    };
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) {
-        const auto parts = split(text, ",");
-        if (parts.size() != 4) return wrong();
-        double values[4] = {};
-        for (std::size_t i = 0; i < 4; ++i) {
-            const auto value = read(parts[i]);
-            if (!value) return wrong();
-            values[i] = *value;
-        }
-        out.normal = {values[0], values[1], values[2]};
-        out.offset = values[3];
+        const auto plane = read_all<double, 4>(text, coordinate);
+        if (!plane) return wrong();
+        out.normal = {(*plane)[0], (*plane)[1], (*plane)[2]};
+        out.offset = (*plane)[3];
         return out.normal == Vec3d{} ? wrong() : Result<GivenSection>(std::move(out));
     }
     std::string_view axis = text.substr(0, equals), place = text.substr(equals + 1);
@@ -201,7 +201,7 @@ Result<GivenSection> parse_section(std::string_view text) {
         return wrong();
     out.is_share = place.ends_with('%');
     const auto share = out.is_share ? parse_share(place) : Result<double>(0.0);
-    const auto value = out.is_share ? std::optional<double>() : read(place);
+    const auto value = out.is_share ? std::optional<double>() : coordinate(place);
     if (out.is_share ? !share : !value) return wrong();
     out.offset = out.is_share ? *share : sign * *value;
     return out;
@@ -209,7 +209,7 @@ Result<GivenSection> parse_section(std::string_view text) {
 
 Result<PictureSize> parse_size(std::string_view text) {
     const auto parts = split(text, "x,");
-    const auto side = [](std::string_view part) { return parse_int(part, 1, std::numeric_limits<int>::max()); };
+    const auto side = [](std::string_view part) { return parse_int(part, 1, kMostPixels); };
     const auto width = side(parts.front()), height = side(parts.back());
     if (parts.size() > 2 || !width || !height)
         return expected("WIDTHxHEIGHT or the side of a square, in pixels from 1, as in 1280x720 or 256", text);
@@ -217,25 +217,16 @@ Result<PictureSize> parse_size(std::string_view text) {
 }
 
 Result<PixelPlace> parse_pixel(std::string_view text) {
-    const auto parts = split(text, ",");
-    int values[2] = {};
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto value = parse_int(parts[i], 0, std::numeric_limits<int>::max());
-        if (parts.size() != 2 || !value) return expected("a pixel X,Y from the upper left corner, as in 32,24", text);
-        values[i] = static_cast<int>(*value);
-    }
-    return PixelPlace{values[0], values[1]};
+    const auto xy = read_all<int, 2>(text, [](std::string_view part, std::size_t) { return parse_int(part, 0, kMostPixels); });
+    if (!xy) return expected("a pixel X,Y from the upper left corner, as in 32,24", text);
+    return PixelPlace{(*xy)[0], (*xy)[1]};
 }
 
 Result<Region> parse_region(std::string_view text) {
-    const auto parts = split(text, ",");
-    int values[4] = {};
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto value = parse_int(parts[i], i < 2 ? 0 : 1, std::numeric_limits<int>::max());
-        if (parts.size() != 4 || !value) return expected("X,Y,WIDTH,HEIGHT in pixels from the upper left corner, as in 0,0,64,64", text);
-        values[i] = static_cast<int>(*value);
-    }
-    return Region{values[0], values[1], values[2], values[3]};
+    const auto sides =
+        read_all<int, 4>(text, [](std::string_view part, std::size_t i) { return parse_int(part, i < 2 ? 0 : 1, kMostPixels); });
+    if (!sides) return expected("X,Y,WIDTH,HEIGHT in pixels from the upper left corner, as in 0,0,64,64", text);
+    return Region{(*sides)[0], (*sides)[1], (*sides)[2], (*sides)[3]};
 }
 
 Result<Vec4f> parse_color(std::string_view text) {
