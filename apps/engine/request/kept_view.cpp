@@ -2,6 +2,8 @@
 
 #include "apps/engine/basics/printable.hpp"
 #include "apps/engine/request/flags.hpp"
+#include "apps/engine/request/given_camera.hpp"
+#include "raster/detail/view_math.hpp"
 #include "raster/view/depth_range.hpp"
 #include "sh/vec3d.hpp"
 
@@ -16,13 +18,6 @@ namespace halflit::engine {
 namespace {
 
 constexpr double kFarthestNumber = 1e38;  // the range of the floats that a camera has
-
-Vec3d column_of(const Mat4& m, std::size_t i) { return {m.c[i].x, m.c[i].y, m.c[i].z}; }
-
-Vec4f column_from(Vec3d v, float w) {
-    const Vec3f f = to_float(v);
-    return {f.x, f.y, f.z, w};
-}
 
 /// The keys of a view in the order of its text. visit(name, numbers): a number, or three.
 template <class View, class Visit>
@@ -46,20 +41,17 @@ void each_key(View& view, const Visit& visit) {
 }  // namespace
 
 KeptView kept_view(const Camera& camera, const Bounds& bounds, const Settings& settings, const Placement& placement) {
-    const double unit = 1.0 / placement.scale;  // a power of two
-    const auto out = [&](Vec3d p) { return placement.out(p); };
-    const auto direction = [&](std::size_t i) { return turned_back(column_of(camera.world_from_camera, i), placement.up); };
+    const GivenCamera given = in_file(camera, placement);
     KeptView view;
-    view.eye = out(column_of(camera.world_from_camera, 3));
-    view.right = direction(0), view.up = direction(1), view.back = direction(2);
+    view.eye = given.eye, view.right = given.right, view.up = given.up, view.back = given.back;
     view.orthographic = camera.orthographic;
     if (camera.orthographic)
-        view.half_height = camera.half_height * unit;
+        view.half_height = given.lens.half_height;
     else
-        view.fov_y_rad = camera.fov_y_rad;
-    view.near_z = camera.near_z * unit, view.far_z = camera.far_z * unit;
+        view.fov_y_rad = given.lens.fov_y_rad;
+    view.near_z = given.lens.near_z, view.far_z = given.lens.far_z;
     view.empty = bounds.empty;
-    if (!bounds.empty) view.low = out(to_double(bounds.min)), view.high = out(to_double(bounds.max));
+    if (!bounds.empty) view.low = placement.out(to_double(bounds.min)), view.high = placement.out(to_double(bounds.max));
     view.point_size = settings.point_size;
     const Vec4f& background = settings.background_linear;
     view.background = {background.x, background.y, background.z};
@@ -69,9 +61,9 @@ KeptView kept_view(const Camera& camera, const Bounds& bounds, const Settings& s
 Camera camera_of(const KeptView& view, const Placement& placement, const Bounds& bounds) {
     const double scale = placement.scale;
     const Vec3d eye = placement.into(view.eye), back = turned_upright(view.back, placement.up);
-    const auto direction = [&](Vec3d v) { return column_from(turned_upright(v, placement.up), 0); };
+    const auto direction = [&](Vec3d v) { return raster::column(turned_upright(v, placement.up), 0); };
     Camera camera;
-    camera.world_from_camera = {{direction(view.right), direction(view.up), column_from(back, 0), column_from(eye, 1)}};
+    camera.world_from_camera = {{direction(view.right), direction(view.up), raster::column(back, 0), raster::column(eye, 1)}};
     camera.orthographic = view.orthographic;
     if (view.orthographic)
         camera.half_height = static_cast<float>(view.half_height * scale);
