@@ -26,7 +26,7 @@ namespace {
 class SceneOfHandle : public engine::SceneKeeper {
 public:
     explicit SceneOfHandle(const halflit_scene& scene) : from_(scene) {}
-    [[nodiscard]] Result<engine::SceneSource> load(const engine::RenderOptions& /*options*/) override {
+    [[nodiscard]] Result<engine::SceneSource> load(const engine::ModelRequest& /*model*/) override {
         const std::lock_guard lock(from_.access);
         LoadedScene loaded;
         loaded.scene = from_.scene;

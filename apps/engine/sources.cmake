@@ -5,10 +5,10 @@ set(HALFLIT_ENGINE_PIXELS pictures/canvas pictures/lettering pictures/marks pict
 set(HALFLIT_ENGINE_WORDS basics/base64 basics/file_names basics/spelling basics/xml_text request/flags request/values
     request/setting_flags request/render_options job/part_choice job/picture_judgement job/section_cuts request/file_flags
     request/film_options request/camera_orbit request/camera_file request/camera_colmap request/given_camera request/kept_view
-    request/classic_material request/scene_view job/render_job job/scene_source job/built_in_scenes job/film_view
-    job/import_detail job/parts
-    job/part_finder job/part_look job/aov look/look_sheet look/part_views look/view_shot compare/model_pair compare/model_change
-    compare/view_change pictures/html_page pictures/vector_file answers/pixel_story_text)
+    request/classic_material request/request_check job/render_job job/job_choices job/light_choice job/view_choice
+    job/scene_source job/built_in_scenes job/film_view job/import_detail job/parts job/part_finder job/part_look job/aov
+    look/look_sheet look/part_views look/view_shot compare/model_pair compare/model_change compare/view_change
+    pictures/html_page pictures/vector_file answers/pixel_story_text)
 # All that writes or reads JSON: its header takes as long to compile as ten of these files.
 set(HALFLIT_ENGINE_JSON request/camera_formats request/lobe_model job/aov_names answers/picture_compare answers/run_report
     answers/camera_json answers/measures_json answers/part_list answers/pixel_stories answers/pixel_story_json

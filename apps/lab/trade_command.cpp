@@ -47,7 +47,7 @@ Result<int> run_trade(TradeOptions options) {
     if (options.quick && options.all) return fail(ErrorCode::usage, "--all: cannot be combined with --quick");
     options.settings.shading.accuracy = Accuracy::reference;  // keeps the environment's image
     if (options.max_memory_bytes == 0) platform::prepare_heap();
-    auto job = make_render_job(options, kTradeSize);
+    auto job = make_render_job(options);
     if (!job) return tl::unexpected(job.error());
     if (const auto folder = make_folder(options.folder); !folder) return tl::unexpected(folder.error());
     for (const std::string& warning : job->warnings) print_warning(warning);

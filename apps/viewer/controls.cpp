@@ -113,13 +113,12 @@ std::vector<Light> lights_of(const Controls& controls, const std::vector<Light>&
     return lights;
 }
 
-engine::RenderOptions with_sky(engine::RenderOptions options, const SkyControls& sky) {
-    options.environment_rotate_deg = sky.rotate_deg;
-    if (sky.sky == Sky::as_started) return options;
-    options.environment = sky.sky == Sky::sky ? "sky" : "";
-    options.studio = sky.sky == Sky::studio ? StudioUse::always : sky.sky == Sky::none ? StudioUse::never : StudioUse::for_dark;
-    options.settings.background_environment = false;
-    return options;
+engine::LightRequest with_sky(engine::LightRequest light, const SkyControls& sky) {
+    light.environment_rotate_deg = sky.rotate_deg;
+    if (sky.sky == Sky::as_started) return light;
+    light.environment = sky.sky == Sky::sky ? "sky" : "";
+    light.studio = sky.sky == Sky::studio ? StudioUse::always : sky.sky == Sky::none ? StudioUse::never : StudioUse::for_dark;
+    return light;
 }
 
 std::string as_flags(const Controls& now, const Controls& started, float exposure) {

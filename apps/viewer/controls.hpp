@@ -74,8 +74,8 @@ void choose_wrap(Controls& controls, float wrap);
 /// `started`: the lights before the controls; there may be more of them than controls.
 [[nodiscard]] std::vector<Light> lights_of(const Controls& controls, const std::vector<Light>& started);
 
-/// The flags with the controls' sky.
-[[nodiscard]] engine::RenderOptions with_sky(engine::RenderOptions options, const SkyControls& sky);
+/// The flags' light with the controls' sky.
+[[nodiscard]] engine::LightRequest with_sky(engine::LightRequest light, const SkyControls& sky);
 
 /// The flags of `halflit render` that give the same lobe, highlights, shadows, sky, exposure and samples, where they differ from those of
 /// the start. There are none for changes of single lights, nor for a lobe's part that the start's flags set and that was taken back.

@@ -28,15 +28,16 @@ const std::vector<Light>& spread_suns(Lighting& light) {
 
 }  // namespace
 
-FrameWorker::FrameWorker(engine::RenderJob job, const engine::RenderOptions& options, std::function<void()> notify)
+FrameWorker::FrameWorker(engine::RenderJob job, engine::LightRequest light, std::function<void()> notify)
     : job_(std::move(job)),
-      options_(options),
+      light_(std::move(light)),
+      background_environment_(job_.settings.background_environment),
       notify_(std::move(notify)),
       start_camera_(job_.camera),
       start_settings_(job_.settings),
       own_lobes_(own_lobes_of(job_.scene())),
       start_lights_(spread_suns(job_.light)),
-      sky_{Sky::as_started, options.environment_rotate_deg} {
+      sky_{Sky::as_started, light_.environment_rotate_deg} {
     job_.timeout_s = 0.0;  // it was for loading
     job_.execution.cancelled = [this] { return given_up_.load(std::memory_order_relaxed); };
     thread_ = std::thread([this] { run(); });
@@ -134,11 +135,12 @@ Result<void> FrameWorker::apply(const FrameRequest& request, DrawnFrame& frame) 
     std::vector<Light>& lights = job_.light.lights;
     if (!(controls.sky == sky_)) {
         job_.camera = start_camera_;  // the studio stands as it did at the start
-        if (const auto changed = engine::change_light(job_, with_sky(options_, controls.sky)); !changed) return changed;
+        const bool background = job_.settings.background_environment = background_environment_ && controls.sky.sky == Sky::as_started;
+        if (const auto changed = engine::change_light(job_, with_sky(light_, controls.sky)); !changed) return changed;
         sky_ = controls.sky;
         start_lights_ = spread_suns(job_.light);
         start_settings_.exposure = job_.settings.exposure;
-        start_settings_.background_environment = options_.settings.background_environment && sky_.sky == Sky::as_started;
+        start_settings_.background_environment = background;
         frame.lights = light_controls(lights);
     }
     Controls now = controls;

@@ -47,7 +47,7 @@ struct DrawnFrame {
 class FrameWorker {
 public:
     /// notify: called on the thread when a result lies ready.
-    FrameWorker(engine::RenderJob job, const engine::RenderOptions& options, std::function<void()> notify);
+    FrameWorker(engine::RenderJob job, engine::LightRequest light, std::function<void()> notify);
     ~FrameWorker();
     FrameWorker(const FrameWorker&) = delete;
     FrameWorker& operator=(const FrameWorker&) = delete;
@@ -68,7 +68,8 @@ private:
     Result<void> draw(const FrameRequest& request, DrawnFrame& frame);
 
     engine::RenderJob job_;
-    const engine::RenderOptions options_;
+    const engine::LightRequest light_;  ///< of the flags
+    const bool background_environment_;
     const std::function<void()> notify_;
     const Camera start_camera_;
     Settings start_settings_;            ///< with the exposure of the present sky

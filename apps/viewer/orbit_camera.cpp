@@ -1,6 +1,6 @@
 #include "apps/viewer/orbit_camera.hpp"
 
-#include "apps/engine/request/scene_view.hpp"
+#include "apps/engine/job/view_choice.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"
 

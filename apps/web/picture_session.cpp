@@ -27,13 +27,13 @@ Result<void> PictureSession::apply(const std::string& scene, const std::vector<s
     if (job_ && scene_flags == scene_flags_) {
         const bool same_light = light_flags == light_flags_;
         light_flags_ = "?";  // until it is done
-        if (const auto changed = engine::change_job(*job_, options, kUsualSize, same_light); !changed) {
+        if (const auto changed = engine::change_job(*job_, options, same_light); !changed) {
             job_.reset();
             return changed;
         }
     } else {
         job_.reset();  // its memory first
-        auto job = engine::make_render_job(options, kUsualSize);
+        auto job = engine::make_render_job(options);
         if (!job) return tl::unexpected(job.error());
         job_.emplace(std::move(*job));
         ++loads_;

@@ -21,7 +21,7 @@ inline OpenedJob open_job(const std::string& scene, std::vector<std::string> fla
     REQUIRE(options);
     options->scene = scene;
     options->may_want_reference = true;
-    auto job = engine::make_render_job(*options, engine::kRenderSize);
+    auto job = engine::make_render_job(*options);
     if (!job) FAIL(job.error().message);
     return {std::move(*options), std::move(*job)};
 }

@@ -1,7 +1,7 @@
 #include "apps/viewer/orbit_camera.hpp"
 
+#include "apps/engine/job/view_choice.hpp"
 #include "apps/engine/request/render_options.hpp"
-#include "apps/engine/request/scene_view.hpp"
 #include "raster/view/projection.hpp"
 #include "tests/support/catch.hpp"
 

@@ -36,7 +36,7 @@ Result<PixelStories> tell_pixels(const RenderJob& job, std::span<const PixelPlac
 Result<PixelStories> explain(RenderOptions options, std::span<const PixelPlace> pixels) {
     if (pixels.empty()) return fail(ErrorCode::usage, "explain: expected --pixel X,Y");
     options.may_want_reference = true;  // for the error
-    const auto job = make_render_job(options, kRenderSize);
+    const auto job = make_render_job(options);
     if (!job) return tl::unexpected(job.error());
     auto stories = tell_pixels(*job, pixels);
     if (stories) stories->warnings = job->warnings, stories->choices = job->choices;

@@ -5,8 +5,10 @@
 #include "apps/engine/basics/file_names.hpp"
 #include "apps/engine/calls/call.hpp"
 #include "apps/engine/compare/compare_files.hpp"
+#include "apps/engine/job/light_choice.hpp"
 #include "apps/engine/job/picture_judgement.hpp"
 #include "apps/engine/look/look.hpp"
+#include "apps/engine/request/request_check.hpp"
 #include "halflit/image.hpp"
 
 #include <fmt/core.h>
@@ -156,7 +158,7 @@ Call explain_view_call() {
 
 Result<Answer> run_render(const RenderOptions& options) {
     if (options.film.several_views()) return fail(ErrorCode::usage, "view: expected one view; look draws several");
-    auto job = make_render_job(options, kRenderSize);
+    auto job = make_render_job(options);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, false);
     const auto rendered =
@@ -183,7 +185,7 @@ Call render_call() {
     return {call_flags({path_flag(o->scene)}, render_flags(*o, kRenderSize)),
             {o.get()},
             [o] { return run_render(*o); },
-            [o] { return check_request(*o, kRenderSize); }};
+            [o] { return check_request(*o); }};
 }
 
 Result<Answer> run_compare(const CompareOptions& call) {
@@ -205,7 +207,7 @@ Call compare_call() {
 }
 
 Result<Answer> run_info(const RenderOptions& options, bool measure_parts) {
-    const auto job = make_measured_job(options, kRenderSize);
+    const auto job = make_measured_job(options);
     if (!job) return tl::unexpected(job.error());
     const auto text = describe_scene(*job, true, measure_parts);
     if (!text) return tl::unexpected(text.error());
@@ -224,7 +226,7 @@ Call info_call() {
 }
 
 Result<Answer> run_measure(const RenderOptions& options) {
-    const auto job = make_measured_job(options, kRenderSize);
+    const auto job = make_measured_job(options);
     if (!job) return tl::unexpected(job.error());
     auto measures = measures_json(*job);
     if (!measures) return tl::unexpected(measures.error());

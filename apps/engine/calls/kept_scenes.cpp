@@ -59,25 +59,22 @@ bool KeptScenes::is_fresh(const Kept& kept) {
     return std::all_of(kept.files.begin(), kept.files.end(), [](const FileState& file) { return state_of(file.path) == file; });
 }
 
-Result<SceneSource> KeptScenes::load(const RenderOptions& options) {
+Result<SceneSource> KeptScenes::load(const ModelRequest& model) {
     kept_.remove_if([](const Kept& kept) { return !is_fresh(kept); });
-    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-        return kept.scene == options.scene && key_of(kept.load) == key_of(options.load);
-    });
+    const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                    [&](const Kept& kept) { return kept.scene == model.scene && key_of(kept.load) == key_of(model.load); });
     if (found != kept_.end()) {
         kept_.splice(kept_.begin(), kept_, found);
         return copy_of(kept_.front().source);
     }
-    RenderOptions alone = options;
-    alone.keeper = nullptr;
-    std::vector<FileState> files{state_of(options.scene)};  // before it is read
-    auto source = load_scene(alone);
-    if (!source || is_built_in_name(options.scene)) return source;
+    std::vector<FileState> files{state_of(model.scene)};  // before it is read
+    auto source = load_scene(model);
+    if (!source || is_built_in_name(model.scene)) return source;
     const std::size_t bytes = bytes_of_scene(*source->scene);
     if (bytes > kMostBytes / 2) return source;
     if (source->file)
         for (const std::string& path : source->file->files) files.push_back(state_of(path));
-    kept_.push_front({options.scene, options.load, std::move(files), copy_of(*source), bytes});
+    kept_.push_front({model.scene, model.load, std::move(files), copy_of(*source), bytes});
     std::size_t all = 0, scenes = 0;
     for (auto kept = kept_.begin(); kept != kept_.end();) {
         all += kept->bytes;

@@ -19,7 +19,7 @@ public:
     static constexpr std::size_t kMostScenes = 4;
     static constexpr std::size_t kMostBytes = std::size_t{512} << 20;  ///< of all of them, about
 
-    [[nodiscard]] Result<SceneSource> load(const RenderOptions& options) override;
+    [[nodiscard]] Result<SceneSource> load(const ModelRequest& model) override;
 
 private:
     /// A file as it was; size -1: it is not there.

@@ -1,5 +1,6 @@
 #include "apps/engine/compare/model_pair.hpp"
 
+#include "apps/engine/job/view_choice.hpp"
 #include "apps/io/models/scaled_lengths.hpp"
 #include "raster/scene/instance_material.hpp"
 #include "sh/vec3d.hpp"
@@ -77,12 +78,8 @@ CompareOptions with_defaults(CompareOptions flags) {
 
 /// Cameras of the flags' views, at one scale. outlines: of both models.
 std::vector<Camera> cameras_of(const ModelPair& pair, const Scene& outlines, const CompareOptions& flags) {
-    std::vector<ViewSettings> sides = given_sides(pair.a.scene(), flags);
-    for (ViewSettings& side : sides) {
-        side.any_side = false;
-        if (flags.fit_px) side.margin_x = 2.0 * flags.fit_px->width / flags.size->width;
-        if (flags.fit_px) side.margin_y = 2.0 * flags.fit_px->height / flags.size->height;
-    }
+    std::vector<ViewSettings> sides = given_sides(pair.a.source, flags, flags.film.views);
+    for (ViewSettings& side : sides) side.any_side = false;
     const float aspect = static_cast<float>(flags.size->width) / static_cast<float>(flags.size->height);
     return frame_views(outlines, pair.bounds, aspect, sides);
 }
@@ -92,10 +89,10 @@ std::vector<Camera> cameras_of(const ModelPair& pair, const Scene& outlines, con
 Result<ModelPair> load_pair(const CompareOptions& options) {
     CompareOptions flags = with_defaults(options);
     flags.scene = options.a;
-    auto a = make_measured_job(flags, kCompareSize);
+    auto a = make_measured_job(flags);
     if (!a) return tl::unexpected(a.error());
     flags.scene = options.b;
-    auto b = make_measured_job(flags, kCompareSize);
+    auto b = make_measured_job(flags);
     if (!b) return tl::unexpected(b.error());
     ModelPair pair{std::move(*a), std::move(*b), {}, {}, {}, {}};
     for (const auto& [name, job] : {std::pair<const char*, const RenderJob*>{"A", &pair.a}, {"B", &pair.b}})
@@ -111,7 +108,7 @@ Result<ModelPair> load_pair(const CompareOptions& options) {
     // The same box, size of points and background for both.
     flags.kept_view = kept_view(pair.cameras.front(), pair.bounds, pair.a.settings, pair.a.source.placement);
     for (RenderJob* const job : {&pair.a, &pair.b})
-        if (const auto changed = change_job(*job, flags, kCompareSize, false); !changed) return tl::unexpected(changed.error());
+        if (const auto changed = change_job(*job, flags, false); !changed) return tl::unexpected(changed.error());
     pair.b.settings.exposure = pair.a.settings.exposure;
     pair.b.settings.shading.emission_scale = pair.a.settings.shading.emission_scale;
     return pair;

@@ -1,5 +1,6 @@
 #include "apps/engine/job/film_view.hpp"
 
+#include "apps/engine/job/light_choice.hpp"
 #include "halflit/camera.hpp"
 #include "raster/scene/framed_part.hpp"
 #include "raster/scene/placed_point.hpp"
@@ -76,32 +77,31 @@ void add_vertices(const Scene& scene, Profile& profile) {
 
 }  // namespace
 
-Result<SceneChanges> pose_job(RenderJob& job, const RenderOptions& options, double time_s) {
+Result<SceneChanges> pose_job(RenderJob& job, double time_s) {
     Scene& scene = job.scene();
-    auto changes = pose_at(*job.source.motion, options.load.animation, time_s, scene);
+    const PoseRules& rules = job.film.pose;
+    auto changes = pose_at(*job.source.motion, rules.animation, time_s, scene);
     if (!changes) return changes;
-    if (changes->lights) follow_lights(job, options);
-    changes->lights = changes->lights && options.scene_lights;
-    if (changes->materials && options.classic.any())
+    if (changes->lights) follow_lights(job);
+    changes->lights = changes->lights && job.film.scene_lights;
+    if (changes->materials && !rules.own_materials)
         return fail(ErrorCode::usage, "--kd, --ks, --shininess: cannot be combined with an animation that changes materials");
-    if (changes->materials && !options.own_lobes) drop_own_lobes(scene);
+    if (changes->materials && !rules.own_lobes) drop_own_lobes(scene);
     return changes;
 }
 
-Result<Bounds> swept_bounds(RenderJob& job, const RenderOptions& options) {
+Result<Bounds> swept_bounds(RenderJob& job) {
     constexpr int kSteps = 32;
     Bounds bounds;
     for (int step = kSteps; step >= 0; --step) {
-        const auto posed = pose_job(job, options, job.animation()->end_s * step / kSteps);
+        const auto posed = pose_job(job, job.animation()->end_s * step / kSteps);
         if (!posed) return tl::unexpected(posed.error());
         bounds.include(raster::framed_bounds(job.scene()));
     }
     return bounds;
 }
 
-std::optional<Camera> film_camera(const Scene& scene, const Bounds& bounds, const FilmOptions& film, float aspect,
-                                  const ViewSettings& view) {
-    if (!film.moves() || bounds.empty) return std::nullopt;
+Camera film_camera(const Scene& scene, const Bounds& bounds, const FilmOptions& film, float aspect, const ViewSettings& view) {
     if (film.turntable == 0) return frame_bounds(bounds, aspect, view);
     Profile profile(bounds);
     if (film.animates()) {

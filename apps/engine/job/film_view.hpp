@@ -8,15 +8,15 @@ namespace halflit::engine {
 
 /// Poses the scene by its animation at a time. Returns what changed. Fails (usage) where the animation sets materials that --kd, --ks or
 /// --shininess replaced.
-[[nodiscard]] Result<SceneChanges> pose_job(RenderJob& job, const RenderOptions& options, double time_s);
+[[nodiscard]] Result<SceneChanges> pose_job(RenderJob& job, double time_s);
 
 /// The box of the scene in 33 poses, from time 0 to the animation's end at even distances. Leaves the scene in the pose of time 0.
-[[nodiscard]] Result<Bounds> swept_bounds(RenderJob& job, const RenderOptions& options);
+[[nodiscard]] Result<Bounds> swept_bounds(RenderJob& job);
 
-/// A view of the whole scene for all frames; none: that of a single picture. A turntable keeps all that turns in view from all sides: what
-/// the scene sweeps in its turn around the vertical axis through the centre of `bounds`. Otherwise an animation keeps `bounds` in view.
-[[nodiscard]] std::optional<Camera> film_camera(const Scene& scene, const Bounds& bounds, const FilmOptions& film, float aspect,
-                                                const ViewSettings& view);
+/// A view of the whole scene for all frames. Requires: they move, and `bounds` is not empty. A turntable keeps all that turns in view from
+/// all sides: what the scene sweeps in its turn around the vertical axis through the centre of `bounds`. Otherwise an animation keeps
+/// `bounds` in view.
+[[nodiscard]] Camera film_camera(const Scene& scene, const Bounds& bounds, const FilmOptions& film, float aspect, const ViewSettings& view);
 
 /// The camera after a part of a turn around the vertical axis through the centre of `bounds`, in the sense of --azimuth.
 [[nodiscard]] Camera turned_camera(const Camera& camera, const Bounds& bounds, std::int64_t frame, int frames_of_turn);

@@ -33,10 +33,10 @@ double pixels_by_length(const Camera& camera, int height, Vec3d low, Vec3d high)
 
 }  // namespace
 
-double framed_detail(const RenderOptions& options, PictureSize usual) {
+double framed_detail(const ViewRequest& request) {
     constexpr double kNearer = 1.5;  // that of a ball in the usual field of view
-    const PictureSize size = options.size.value_or(usual);
-    return rounded_detail(kNearer * std::max(size.width, size.height) * std::max(1.0, static_cast<double>(options.view.zoom)));
+    const PictureSize size = request.picture_size();
+    return rounded_detail(kNearer * std::max(size.width, size.height) * std::max(1.0, static_cast<double>(request.view.zoom)));
 }
 
 double seen_detail(const RenderJob& job, double diagonal) {

@@ -6,7 +6,7 @@
 namespace halflit::engine {
 
 /// Before the scene is loaded: of a model that is framed, at its nearest point.
-[[nodiscard]] double framed_detail(const RenderOptions& options, PictureSize usual);
+[[nodiscard]] double framed_detail(const ViewRequest& request);
 
 /// That the job's views need of what they show, of a model whose whole box has this diagonal.
 [[nodiscard]] double seen_detail(const RenderJob& job, double diagonal);

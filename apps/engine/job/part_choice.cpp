@@ -35,8 +35,7 @@ void tell_parts(RenderJob& job, const PartFlags& flags) {
 
 }  // namespace
 
-Result<void> choose_parts(RenderJob& job, const RenderOptions& options) {
-    const PartFlags& flags = options.parts;
+Result<void> choose_parts(RenderJob& job, const PartFlags& flags) {
     if (!flags.any()) return {};
     const Parts& parts = *job.source.parts;
     const std::size_t count = parts.list().size();
@@ -64,15 +63,15 @@ Result<void> choose_parts(RenderJob& job, const RenderOptions& options) {
     return {};
 }
 
-void paint_parts(RenderJob& job, const RenderOptions& options) {
-    if (options.parts.ghost.empty() && options.parts.highlight.empty()) return;
+void paint_parts(RenderJob& job, const PartFlags& flags) {
+    if (flags.ghost.empty() && flags.highlight.empty()) return;
     Scene& scene = job.scene();
-    if (!options.parts.highlight.empty())
+    if (!flags.highlight.empty())
         for (Mesh& mesh : scene.meshes) mesh.colors = {};
     std::vector<bool> is_cap(scene.instances.size());
     for (const SectionCut& cut : job.sections.cuts)
         if (cut.cap >= 0) is_cap[static_cast<std::size_t>(cut.cap)] = true;
-    PartPainter painter(scene, options.parts.highlight_linear);
+    PartPainter painter(scene, flags.highlight_linear);
     TimeCheck check;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         check();

@@ -16,14 +16,23 @@
 
 namespace halflit::engine {
 
+/// What the flags say of poses at other times.
+struct PoseRules {
+    std::string animation;      ///< LoadOptions::animation
+    bool own_lobes = true;      ///< materials keep their own lobes
+    bool own_materials = true;  ///< the flags replace nothing of the materials
+};
+
 /// Data that decide each frame of a moving picture and do not depend on which frames are drawn.
 struct Film {
+    PoseRules pose;
     Bounds bounds;                          ///< of all poses; of the scene, if it stands still
     std::vector<Camera> views;              ///< of --view, if it gives several
     int file_camera = -1;                   ///< index into Scene::cameras of the view; -1: another
     bool framed = false;                    ///< the camera is a view of the whole scene, fitted to it or kept
     std::optional<ViewSettings> view;       ///< its direction; none: kept
     ViewReason reason = ViewReason::given;  ///< for that direction
+    bool scene_lights = true;               ///< the light begins with the scene's lights
     AutoOptions choice;                     ///< of auto_setup; with a light, the scene's and the flags'
     float sun_radius = 0, lamp_radius = 0;  ///< Light::shadow_radius of lights that have none
 };
@@ -57,35 +66,21 @@ struct RenderJob {
     [[nodiscard]] Execution timed_execution() const;
 };
 
-/// Fails (usage) for options that exclude each other, and for values that no scene could have.
-[[nodiscard]] Result<void> check_request(const RenderOptions& options, PictureSize usual);
-
-/// `usual`: the picture size without --size; it is reduced to the aspect ratio of the file's camera. Errors that can be found without the
-/// scene are reported before it is loaded.
-[[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options, PictureSize usual);
+/// Errors that can be found without the scene are reported before it is loaded.
+[[nodiscard]] Result<RenderJob> make_render_job(const RenderOptions& options);
 
 /// The same for answers with measures: the exact ones of the file too, if its format has them.
-[[nodiscard]] Result<RenderJob> make_measured_job(RenderOptions options, PictureSize usual);
-
-/// The sides that --view asks for, without the margin of --fit. Names are relative to the scene's front.
-[[nodiscard]] std::vector<ViewSettings> given_sides(const Scene& scene, const RenderOptions& options);
+[[nodiscard]] Result<RenderJob> make_measured_job(RenderOptions options);
 
 /// Takes the materials' own lobes away, so that the settings' lobe counts for all.
 void drop_own_lobes(Scene& scene);
 
-/// Turns the light that was chosen for the viewer, such as the studio, with another camera. The exposure stays. False: there is none.
-bool relight(RenderJob& job, const Camera& camera);
-
-/// Moves the file's lights in the job's light to where they are in the scene.
-void follow_lights(RenderJob& job, const RenderOptions& options);
-
-/// Chooses the light anew, from the scene's own, by the flags' lights, environment and exposure. The camera stays; other flags do not
-/// count.
-[[nodiscard]] Result<void> change_light(RenderJob& job, const RenderOptions& options);
+/// Chooses the light anew, from the scene's own, by the flags' lights, environment and exposure. The camera and other settings stay.
+[[nodiscard]] Result<void> change_light(RenderJob& job, const LightRequest& request);
 
 /// Makes of the job what make_render_job would make of the flags, if they differ from the job's in settings, view, lights and environment
 /// alone: the scene stays loaded and prepared. same_light: in settings and view alone.
-[[nodiscard]] Result<void> change_job(RenderJob& job, const RenderOptions& options, PictureSize usual, bool same_light);
+[[nodiscard]] Result<void> change_job(RenderJob& job, RenderOptions options, bool same_light);
 
 /// Allocates the region of the picture that is drawn: 8-bit codes, and linear floats if `linear`.
 [[nodiscard]] Image make_image(const RenderJob& job, bool linear);

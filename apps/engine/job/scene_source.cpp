@@ -9,14 +9,12 @@
 namespace halflit::engine {
 namespace {
 
-Result<LoadedScene> load_file(const RenderOptions& options) {
-    LoadOptions load = options.load;
-    load.threads = options.execution.threads;
-    if (options.scene != "-") return load_model(options.scene, load);
-    if (options.input != nullptr) return load_model_bytes(*options.input, kStandardInputName, "", load);
-    const auto bytes = read_standard_input(options.load.limits.max_file_bytes, options.load.limits.time_limit_s);
+Result<LoadedScene> load_file(const ModelRequest& model) {
+    if (model.scene != "-") return load_model(model.scene, model.load);
+    if (model.input != nullptr) return load_model_bytes(*model.input, kStandardInputName, "", model.load);
+    const auto bytes = read_standard_input(model.load.limits.max_file_bytes, model.load.limits.time_limit_s);
     if (!bytes) return tl::unexpected(bytes.error());
-    return load_model_bytes(*bytes, kStandardInputName, "", load);
+    return load_model_bytes(*bytes, kStandardInputName, "", model.load);
 }
 
 bool is_address(const std::string& name) {
@@ -44,13 +42,12 @@ ShownUnit file_unit(const SceneSource& source) {
     return {metres > 0 ? "m" : "", 1.0 / source.placement.scale};
 }
 
-Result<SceneSource> load_scene(const RenderOptions& options) {
-    if (options.keeper != nullptr) return options.keeper->load(options);
-    const std::string name = options.scene.empty() ? "demo" : options.scene;
+Result<SceneSource> load_scene(const ModelRequest& model) {
+    const std::string name = model.scene.empty() ? "demo" : model.scene;
     auto built_in = built_in_scene(name);
     if (!built_in) return tl::unexpected(built_in.error());
     if (*built_in) {
-        const UpAxis up = options.load.up.value_or(UpAxis::y);
+        const UpAxis up = model.load.up.value_or(UpAxis::y);
         turn_upright(**built_in, up);
         auto scene = std::make_unique<Scene>(std::move(**built_in));
         auto parts = std::make_shared<Parts>(*scene);
@@ -62,7 +59,7 @@ Result<SceneSource> load_scene(const RenderOptions& options) {
                            .parts = std::move(parts)};
     }
     if (is_address(name)) return fail(ErrorCode::usage, name + ": is an address" + instead_of(name));
-    auto loaded = load_file(options);
+    auto loaded = load_file(model);
     if (!loaded && loaded.error().code == ErrorCode::io && name != "-")
         return fail(ErrorCode::io, loaded.error().message + did_you_mean_file(name, {"demo", "sphere:N", "lights:N"}));
     if (!loaded) return tl::unexpected(loaded.error());

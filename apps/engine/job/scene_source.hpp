@@ -42,12 +42,12 @@ inline constexpr const char* kStandardInputName = "standard input";
 class SceneKeeper {
 public:
     virtual ~SceneKeeper() = default;
-    /// Returns what load_scene() returns for these options without a keeper. The caller may change the scene.
-    [[nodiscard]] virtual Result<SceneSource> load(const RenderOptions& options) = 0;
+    /// Returns what load_scene() returns. The caller may change the scene.
+    [[nodiscard]] virtual Result<SceneSource> load(const ModelRequest& model) = 0;
 };
 
 /// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".
-[[nodiscard]] Result<SceneSource> load_scene(const RenderOptions& options);
+[[nodiscard]] Result<SceneSource> load_scene(const ModelRequest& model);
 
 /// True for what load_scene can be asked for: a built-in scene, standard input ("-"), a model's name or a file that is there.
 [[nodiscard]] bool is_scene(const std::string& name);

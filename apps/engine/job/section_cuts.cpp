@@ -37,7 +37,7 @@ std::vector<bool> shown_parts(const RenderJob& job) {
     return shown;
 }
 
-void tell_sections(RenderJob& job, const RenderOptions& options) {
+void tell_sections(RenderJob& job, const ContentRequest& request) {
     const SectionReport& report = job.sections;
     if (report.cuts.empty() && report.instances_cut == 0) job.warnings.push_back("--section: no plane goes through an object");
     for (std::size_t i = 0; i < report.cuts.size(); ++i) {
@@ -47,7 +47,7 @@ void tell_sections(RenderJob& job, const RenderOptions& options) {
         }
         const SectionCut& cut = report.cuts[i];
         const std::string& name = cut_name(job, cut);
-        job.choices.push_back(fmt::format("section {}: object {}{}{}, area {:g}{}", options.sections[cut.plane].text, cut.part,
+        job.choices.push_back(fmt::format("section {}: object {}{}{}, area {:g}{}", request.sections[cut.plane].text, cut.part,
                                           name.empty() ? "" : ", ", name, file_area(job, cut), cut.closed ? "" : ", open"));
     }
     const auto count = [&](auto test) { return std::count_if(report.cuts.begin(), report.cuts.end(), test); };
@@ -61,17 +61,17 @@ void tell_sections(RenderJob& job, const RenderOptions& options) {
 
 }  // namespace
 
-Result<void> cut_job(RenderJob& job, const RenderOptions& options) {
+Result<void> cut_job(RenderJob& job, const ContentRequest& request) {
     const Bounds bounds = scene_bounds(job.scene());
     std::vector<CutPlane> planes;
-    for (const GivenSection& given : options.sections) {
+    for (const GivenSection& given : request.sections) {
         const CutPlane plane = drawn_plane(given, job.source.placement, bounds);
         if (!(plane.offset - plane.offset == 0.0)) return fail(ErrorCode::usage, "--section: the plane is too far away");
         planes.push_back(plane);
     }
     SectionSettings settings;
-    settings.hatch = options.hatch;
-    settings.hatch_spacing = options.hatch_spacing * job.source.placement.scale;
+    settings.hatch = request.hatch;
+    settings.hatch_spacing = request.hatch_spacing * job.source.placement.scale;
     const std::vector<bool> before = shown_parts(job);
     auto report = cut_scene(job.scene(), planes, settings, job.source.parts->of_instances());
     if (!report) return fail(report.error().code, "--section: " + report.error().message);
@@ -81,7 +81,7 @@ Result<void> cut_job(RenderJob& job, const RenderOptions& options) {
     const std::vector<bool> after = shown_parts(job);
     for (std::size_t part = 0; part < before.size(); ++part)
         if (before[part] && !after[part]) job.removed.push_back(static_cast<int>(part));
-    tell_sections(job, options);
+    tell_sections(job, request);
     return {};
 }
 

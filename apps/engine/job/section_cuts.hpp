@@ -8,7 +8,7 @@
 namespace halflit::engine {
 
 /// Cuts the job's scene by the flags' planes, and adds lines of choices and warnings. Nodes of a file are parts.
-[[nodiscard]] Result<void> cut_job(RenderJob& job, const RenderOptions& options);
+[[nodiscard]] Result<void> cut_job(RenderJob& job, const ContentRequest& request);
 
 /// Area of a section in square units of the file.
 [[nodiscard]] double file_area(const RenderJob& job, const SectionCut& cut);

@@ -25,11 +25,9 @@ constexpr int kMostSectionViews = 4;
 constexpr std::size_t kMostAlone = 24;  // parts that are drawn alone
 constexpr const char* kPaper = "#eceef1";
 
-/// Pictures are larger where each triangle has to be seen.
-PictureSize usual_size(const LookOptions& options) { return options.certify > 0 ? kCertifiedSize : kViewSize; }
-
 /// Defaults of a sheet of views, which flags may change.
 void set_defaults(LookOptions& options) {
+    if (options.certify > 0) options.usual_size = kCertifiedSize;                   // where each triangle has to be seen
     if (!options.has_given("shadows")) options.settings.shadows = ShadowMode::off;  // their borders look like edges
     if (!options.has_given("edges")) options.settings.edges = EdgeChoice::feature;
     if (!options.background_linear)
@@ -40,11 +38,12 @@ void set_defaults(LookOptions& options) {
         options.film.views = usual_views();
         // The sides may all show a cut from behind.
         for (int i = 0; !options.projection && i < std::min(static_cast<int>(options.sections.size()), kMostSectionViews); ++i)
-            options.film.views.push_back({.name = i == 0 ? "section" : fmt::format("section {}", i + 1), .of_section = i});
+            options.film.views.push_back({.name = i == 0 ? "section" : fmt::format("section {}", i + 1),
+                                          .facing = options.sections[static_cast<std::size_t>(i)].normal});
     }
     options.whole_scene = true;
     if (!options.fit_px) {
-        const PictureSize size = options.size.value_or(usual_size(options));
+        const PictureSize size = options.picture_size();
         options.fit_px = PictureSize{std::min(kMargin.width, size.width / 5), std::min(kMargin.height, size.height / 5)};
     }
 }
@@ -152,7 +151,7 @@ Result<RenderJob> look_job(LookOptions& options) {
                         "found " +
                             (names.empty() ? std::string("one camera") : joined(names, ", ")));
     }
-    return make_measured_job(options, usual_size(options));
+    return make_measured_job(options);
 }
 
 Result<LookResult> look(const LookOptions& given) {

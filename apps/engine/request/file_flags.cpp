@@ -60,7 +60,7 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
           },
           .repeated = true},
          {"--no-cache", "", "Do not keep what importers make in ~/.cache/halflit/import, and do not read it there",
-          set_to(o.import_cache, false)},
+          set_to(o.load.import_cache, false)},
          limit_flag("--max-file-bytes", limits.max_file_bytes, "a larger model, buffer or picture file", kAny),
          limit_flag("--max-total-bytes", limits.max_total_bytes, "more bytes in all buffers together", kAny),
          limit_flag("--max-json-depth", limits.max_json_depth, "JSON nested deeper", 1000),

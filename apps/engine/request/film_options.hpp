@@ -3,6 +3,7 @@
 
 #include "apps/engine/film/film_writer.hpp"
 #include "halflit/error.hpp"
+#include "halflit/math.hpp"
 #include "halflit/report.hpp"
 
 #include <cstddef>
@@ -33,9 +34,9 @@ struct FrameRate {
 struct GivenView {
     std::string name;  ///< of kNamedViews, or the two numbers: "30,-20"
     float azimuth_deg = 0, elevation_deg = 0;
-    bool named = false;    ///< relative to the model's front
-    bool of_file = false;  ///< a camera of --camera-file; `name` is that of its picture
-    int of_section = -1;   ///< index of a --section that the view faces; its angles are those of the plane's normal
+    bool named = false;             ///< relative to the model's front
+    bool of_file = false;           ///< a camera of --camera-file; `name` is that of its picture
+    std::optional<Vec3d> facing{};  ///< in place of the angles: the normal of a --section that the view faces, in the file's world
 };
 
 /// Names of kNamedViews, and pairs of numbers AZIMUTH,ELEVATION, with commas between them.

@@ -12,14 +12,18 @@
 #include <utility>
 
 namespace halflit::engine {
+
+Vec3d drawn_at(Vec3d point, const Placement& placement) {
+    const auto within = [](double x) { return std::clamp(x, -io::kLargestLength, io::kLargestLength); };
+    const Vec3d at = placement.into(point);
+    return {within(at.x), within(at.y), within(at.z)};
+}
+
 Camera placed(const GivenCamera& given, const Placement& placement, const Bounds& bounds) {
     Camera camera = given.lens;
     camera.name = given.name;
     const auto axis = [&](Vec3d v) { return raster::column(turned_upright(v, placement.up), 0); };
-    const auto within = [](double x) { return std::clamp(x, -io::kLargestLength, io::kLargestLength); };
-    const Vec3d eye = placement.into(given.eye);
-    camera.world_from_camera = {
-        {axis(given.right), axis(given.up), axis(given.back), raster::column({within(eye.x), within(eye.y), within(eye.z)}, 1)}};
+    camera.world_from_camera = {{axis(given.right), axis(given.up), axis(given.back), raster::column(drawn_at(given.eye, placement), 1)}};
     io::scale_lengths(camera, placement.scale);
     return completed(std::move(camera), bounds);
 }

@@ -30,6 +30,9 @@ struct CameraFile {
     std::vector<std::string> warnings;  ///< one line each
 };
 
+/// Where a point of the file is drawn, as far as floats reach.
+[[nodiscard]] Vec3d drawn_at(Vec3d point, const Placement& placement);
+
 /// The camera in the scene, which draws the model at `placement`. bounds: of the scene, for completed().
 [[nodiscard]] Camera placed(const GivenCamera& given, const Placement& placement, const Bounds& bounds);
 

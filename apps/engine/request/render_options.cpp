@@ -43,7 +43,25 @@ ReadValue number(Target& target, float min, float max) {
     return parsed(target, [min, max](const std::string& text) { return parse_float(text, min, max); });
 }
 
-Result<void> read_exposure(RenderOptions& options, const std::string& text) {
+/// Reads a text that is not empty.
+ReadValue read_name(std::string& target, const char* expected) {
+    return parsed(target, [expected](const std::string& text) -> Result<std::string> {
+        if (text.empty()) return fail(ErrorCode::usage, fmt::format("expected {}, found ''", expected));
+        return text;
+    });
+}
+
+/// Appends what a parser reads, for what may be given several times.
+template <class T, class Parser>
+ReadValue appended(std::vector<T>& target, Parser parser) {
+    return [&target, parser](const std::string& text) { return parser(text).map([&](T value) { target.push_back(std::move(value)); }); };
+}
+
+Result<Vec3f> parse_rgb(const std::string& text) {
+    return parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; });
+}
+
+Result<void> read_exposure(LightRequest& options, const std::string& text) {
     constexpr std::string_view kAuto = "auto";
     const bool chosen = text.starts_with(kAuto);
     const std::string number = chosen ? text.substr(kAuto.size()) : text;
@@ -56,7 +74,7 @@ Result<void> read_exposure(RenderOptions& options, const std::string& text) {
     return {};
 }
 
-Result<void> read_background(RenderOptions& options, const std::string& text) {
+Result<void> read_background(SettingsRequest& options, const std::string& text) {
     options.settings.background_environment = text == "environment";
     options.background_linear.reset();
     if (options.settings.background_environment || text == "auto") return {};
@@ -68,14 +86,14 @@ Flag of_stage(Stage stage, Flag flag) {
     return flag;
 }
 
-FlagGroup picture_flags(RenderOptions& o, PictureSize usual) {
+FlagGroup picture_flags(RenderOptions& o) {
     Settings& s = o.settings;
     return {
         "Picture",
         {{"--size", "WxH",
           fmt::format("Width and height in pixels; one number: the side of a square (default {}x{}, reduced to the aspect ratio of the "
                       "file's camera)",
-                      usual.width, usual.height),
+                      o.usual_size.width, o.usual_size.height),
           parsed(o.size, parse_size)},
          {"--region", "X,Y,W,H", "Draw and write only this part of the picture", parsed(s.region, parse_region)},
          {"--background", "auto|COLOR|environment",
@@ -97,7 +115,7 @@ Flag view_flag(bool& given, const char* name, const char* form, const char* help
             }};
 }
 
-Result<void> read_camera(RenderOptions& o, const std::string& text) {
+Result<void> read_camera(ViewRequest& o, const std::string& text) {
     if (text == "frame")
         o.whole_scene = true;
     else
@@ -177,39 +195,23 @@ FlagGroup camera_flags(RenderOptions& o) {
 }
 
 FlagGroup pose_flags(RenderOptions& o) {
-    return {
-        "Pose",
-        {{"--animation", "NAME|INDEX|none",
-          "Animation of the file that poses the scene (default: the first); none: the pose without animation",
-          [&o](const std::string& text) -> Result<void> {
-              if (text.empty()) return fail(ErrorCode::usage, "expected a name, an index or none, found ''");
-              o.load.animation = text;
-              return {};
-          }},
-         {"--scene", "INDEX|NAME", "Scene of the file (default: the one that the file names, or the first)",
-          [&o](const std::string& text) -> Result<void> {
-              if (text.empty()) return fail(ErrorCode::usage, "expected a name or an index, found ''");
-              o.load.scene = text;
-              return {};
-          }},
-         {"--plate", "N", "Plate of a slicer's project (3MF), from 1 (default 1); 0: all of them",
-          parsed(o.load.plate,
-                 [](const std::string& text) { return parse_int(text, 0, 255).map([](std::int64_t n) { return static_cast<int>(n); }); })},
-         {"--variant", "NAME", "Variant of the file's materials (default: the materials without a variant)",
-          [&o](const std::string& text) -> Result<void> {
-              if (text.empty()) return fail(ErrorCode::usage, "expected a name, found ''");
-              o.load.variant = text;
-              return {};
-          }},
-         {"--time", "SECONDS", "Time in the animation (default 0); outside of the animation, its first or last pose is drawn",
-          [&o](const std::string& text) {
-              o.film.time_held = true;
-              return assign(o.load.time_s, parse_time(text));
-          }}}};
+    return {"Pose",
+            {{"--animation", "NAME|INDEX|none",
+              "Animation of the file that poses the scene (default: the first); none: the pose without animation",
+              read_name(o.load.animation, "a name, an index or none")},
+             {"--scene", "INDEX|NAME", "Scene of the file (default: the one that the file names, or the first)",
+              read_name(o.load.scene, "a name or an index")},
+             {"--plate", "N", "Plate of a slicer's project (3MF), from 1 (default 1); 0: all of them", read_int(o.load.plate, 0, 255)},
+             {"--variant", "NAME", "Variant of the file's materials (default: the materials without a variant)",
+              read_name(o.load.variant, "a name")},
+             {"--time", "SECONDS", "Time in the animation (default 0); outside of the animation, its first or last pose is drawn",
+              [&o](const std::string& text) {
+                  o.film.time_held = true;
+                  return assign(o.load.time_s, parse_time(text));
+              }}}};
 }
 
-FlagGroup part_flags(RenderOptions& o) {
-    PartFlags& parts = o.parts;
+FlagGroup part_flags(PartFlags& parts) {
     const auto flag = [](const char* name, const char* help, std::vector<std::string>& target) {
         return Flag{.names = name, .form = "PART", .help = help, .read = append_to(target), .repeated = true};
     };
@@ -223,12 +225,10 @@ FlagGroup part_flags(RenderOptions& o) {
          flag("--ghost", "Draw this part translucent and pale, so that you see what lies inside; it casts no shadow", parts.ghost),
          flag("--highlight", "Draw this part in one bright colour, and all others but ghosts in grey", parts.highlight),
          {"--highlight-color", "COLOR", "Colour of --highlight: #rgb, #rrggbb or a name (default #ff8400, orange)",
-          [&parts](const std::string& text) {
-              return assign(parts.highlight_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
-          }}}};
+          parsed(parts.highlight_linear, parse_rgb)}}};
 }
 
-FlagGroup section_flags(RenderOptions& o) {
+FlagGroup section_flags(ContentRequest& o) {
     return {
         "Section",
         {{.names = "--section",
@@ -236,25 +236,13 @@ FlagGroup section_flags(RenderOptions& o) {
           .help = "Cut the scene by a plane: x=0.5 keeps what is below 0.5 on the x axis, -x=0.5 what is above, x=50% is the middle, "
                   "A,B,C,D keeps Ax+By+Cz<=D. Axes and coordinates are the file's, as in the measures of `info`. Closed objects get caps; "
                   "the report has their areas",
-          .read = [&o](const std::string& text) -> Result<void> {
-              auto section = parse_section(text);
-              if (!section) return tl::unexpected(section.error());
-              o.sections.push_back(std::move(*section));
-              return {};
-          },
+          .read = appended(o.sections, parse_section),
           .repeated = true},
          {"--section-hatch", form_of(kOffOn), fmt::format("Hatch the caps of the cut with lines (default {})", name_of(o.hatch, kOffOn)),
           named(o.hatch, kOffOn)},
          {"--section-spacing", "N",
           "Distance between the lines of the hatch, in the scene's units (default: a fortieth of the scene's diagonal)",
           number(o.hatch_spacing, 0.0f, std::numeric_limits<float>::max())}}};
-}
-
-Result<void> read_light(std::vector<GivenLight>& lights, const std::string& text) {
-    const auto light = parse_light(text);
-    if (!light) return tl::unexpected(light.error());
-    lights.push_back(*light);
-    return {};
 }
 
 Result<void> read_ambient(std::optional<Vec3f>& ambient, const std::string& text) {
@@ -265,14 +253,14 @@ Result<void> read_ambient(std::optional<Vec3f>& ambient, const std::string& text
     return {};
 }
 
-FlagGroup light_flags(RenderOptions& o) {
+FlagGroup light_flags(LightRequest& o) {
     return {
         "Light",
         {{.names = "--light",
           .form = "TYPE:KEY=VALUE:...",
           .help = "Add a light, as directional:dir=-1,-2,-1:color=#fff:intensity=1; also point (pos, range, radius) and spot (pos, dir, "
                   "cone=IN,OUT, power); size makes shadows soft",
-          .read = [&o](const std::string& text) { return read_light(o.lights, text); },
+          .read = appended(o.lights, parse_light),
           .repeated = true},
          {"--no-scene-lights", "", "Leave out the scene's own lights and ambient light", set_to(o.scene_lights, false)},
          {"--ambient", "R,G,B", "Ambient light: the same from all directions, linear RGB",
@@ -280,7 +268,7 @@ FlagGroup light_flags(RenderOptions& o) {
         Stage::light};
 }
 
-FlagGroup environment_flags(RenderOptions& o) {
+FlagGroup environment_flags(LightRequest& o) {
     return {"Environment",
             {{"--env", "FILE|sky|studio|none",
               "Environment, an image of light from all directions: a picture of floats (.hdr .exr .pfm), or the built-in sky or studio "
@@ -298,7 +286,7 @@ FlagGroup environment_flags(RenderOptions& o) {
             Stage::light};
 }
 
-FlagGroup shadow_flags(RenderOptions& o) {
+FlagGroup shadow_flags(LightRequest& o) {
     return {
         "Shadows",
         {{"--sun-size", "DEG",
@@ -373,21 +361,19 @@ FlagGroup machine_flags(Execution& e) {
           }}}};
 }
 
-}  // namespace
-
-Result<std::optional<Lobe>> chosen_lobe(const RenderOptions& o) {
-    if (o.lobe_name) {
-        auto lobe = io::lobe_from_name(*o.lobe_name, o.lobe);
-        if (!lobe)  // the message begins with the parameter's name, which is the flag's
-            return fail(ErrorCode::usage, "--" + lobe.error().message + did_you_mean_lobe(*o.lobe_name));
-        return *lobe;
-    }
-    if (o.lobe.wrap || o.lobe.power) return Lobe{o.lobe.wrap.value_or(0.0f), o.lobe.power.value_or(1.0f), o.lobe.normalize.has_value()};
-    if (o.lobe.normalize) return fail(ErrorCode::usage, "--normalize: expected together with --lobe, --wrap or --power");
-    return std::nullopt;
+FlagGroup line_flags(SettingsRequest& o) {
+    return {"Lines",
+            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)",
+              [&o](const std::string& text) {
+                  if (!o.has_given("edge_contrast")) o.settings.edge_contrast = false;
+                  return assign(o.settings.edge_color_linear, parse_rgb(text));
+              }}},
+            Stage::draw};
 }
 
-Positional scene_argument(RenderOptions& o, bool required) {
+}  // namespace
+
+Positional scene_argument(ModelRequest& o, bool required) {
     return {.name = "SCENE",
             .help = fmt::format(
                 "A model's file; {}, - for standard input; or a built-in scene: demo, sphere:N (N triangles), lights:N (N point lights)",
@@ -397,24 +383,11 @@ Positional scene_argument(RenderOptions& o, bool required) {
             .form = "FILE"};
 }
 
-namespace {
-
-FlagGroup line_flags(RenderOptions& o) {
-    return {"Lines",
-            {{"--edge-color", "COLOR", "Colour of the lines: #rgb, #rrggbb or a name (default black)",
-              [&o](const std::string& text) {
-                  if (!o.has_given("edge_contrast")) o.settings.edge_contrast = false;
-                  return assign(o.settings.edge_color_linear, parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; }));
-              }}},
-            Stage::draw};
-}
-
-}  // namespace
-
 std::vector<FlagGroup> render_flags(RenderOptions& o, PictureSize usual) {
-    std::vector<FlagGroup> groups{picture_flags(o, usual), camera_flags(o), pose_flags(o),        part_flags(o),
-                                  section_flags(o),        light_flags(o),  environment_flags(o), shadow_flags(o),
-                                  surface_flags(o),        line_flags(o),   {"Accuracy", {}},     machine_flags(o.execution),
+    o.usual_size = usual;
+    std::vector<FlagGroup> groups{picture_flags(o),       camera_flags(o), pose_flags(o),        part_flags(o.parts),
+                                  section_flags(o),       light_flags(o),  environment_flags(o), shadow_flags(o),
+                                  surface_flags(o),       line_flags(o),   {"Accuracy", {}},     machine_flags(o.execution),
                                   untrusted_file_flags(o)};
     for (FlagGroup& group : groups) add_setting_flags(group, o.settings, o.given_settings);
     return groups;

@@ -75,7 +75,7 @@ Result<double> encoding_ms(const Image& image) {
 
 Result<int> run_bench(const BenchOptions& options) {
     if (options.max_memory_bytes == 0) platform::prepare_heap();
-    const auto job = make_render_job(options, kBenchSize);
+    const auto job = make_render_job(options);
     if (!job) return tl::unexpected(job.error());
     Image image = make_image(*job, false);
     const auto measured = measure(*job, options.frames, options.keep, image);

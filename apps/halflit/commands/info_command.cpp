@@ -16,7 +16,7 @@ struct InfoOptions : RenderOptions {
 };
 
 Result<int> describe(const InfoOptions& options) {
-    const auto job = make_measured_job(options, kRenderSize);
+    const auto job = make_measured_job(options);
     if (!job) return tl::unexpected(job.error());
     for (const std::string& warning : job->warnings) print_warning(warning);
     const auto described = describe_scene(*job, options.json, options.measure_parts);

@@ -94,9 +94,9 @@ struct Cell {
 };
 
 /// print_warnings: to standard error.
-Result<Cell> draw(const SheetOptions& options, const std::string& name, PictureSize size, bool print_warnings) {
+Result<Cell> draw(const SheetOptions& options, const std::string& name, bool print_warnings) {
     try {
-        auto job = make_render_job(options, size);
+        auto job = make_render_job(options);
         if (!job) return tl::unexpected(job.error());
         Image image = make_image(*job, false);
         const auto rendered =
@@ -130,7 +130,7 @@ Result<int> run_sheet(const SheetOptions& options) {
     for (const std::string& scene : options.scenes)
         references.push_back(options.references.empty() ? "" : find_reference(scene, options.references));
     const bool any_reference = std::any_of(references.begin(), references.end(), [](const auto& path) { return !path.empty(); });
-    const PictureSize size = options.size.value_or(kSheetSize);
+    const PictureSize size = options.picture_size();
     const std::vector<std::string> names = names_of(options.scenes);
     SheetLayout cells{.picture = size, .references = any_reference};
     for (const std::string& name : names)
@@ -152,7 +152,7 @@ Result<int> run_sheet(const SheetOptions& options) {
         SheetOptions one = options;
         one.scene = options.scenes[i];
         if (background) one.background_linear = background;
-        if (const auto cell = draw(one, names[i], size, !background)) {
+        if (const auto cell = draw(one, names[i], !background)) {
             page.add_picture(i, cell->image, false);
             backgrounds[i] = cell->background_linear;
         } else {

@@ -60,7 +60,7 @@ Result<int> run_view(ViewOptions options) {
     if (options.max_memory_bytes == 0) platform::prepare_heap();
     if (options.settings.region.width > 0) return fail(ErrorCode::usage, "--region: not in a window");
     options.may_want_reference = true;  // the error of a pixel that is clicked on
-    auto job = make_render_job(options, kRenderSize);
+    auto job = make_render_job(options);
     if (!job) return tl::unexpected(job.error());
     if (rehearsal.click && (rehearsal.click->x >= job->width || rehearsal.click->y >= job->height))
         return fail(ErrorCode::usage,

@@ -80,7 +80,7 @@ Result<PictureFile> drawn_and_encoded(PictureOptions& options, bool one_of_many)
     for (const std::string& path : paths)
         if (const auto checked = check_writable(path); !checked) return tl::unexpected(checked.error());
     warn_of_lost_transparency(options, *format);
-    auto job = make_render_job(options, kRenderSize);
+    auto job = make_render_job(options);
     if (!job) return tl::unexpected(job.error());
     if (const auto checked = spare_inputs(options, *job); !checked) return tl::unexpected(checked.error());
     std::optional<Region> part_of;

@@ -7,6 +7,7 @@
 #include "apps/engine/basics/stopwatch.hpp"
 #include "apps/engine/film/film_writer.hpp"
 #include "apps/engine/job/film_view.hpp"
+#include "apps/engine/job/light_choice.hpp"
 #include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/program/interrupt.hpp"
 #include "apps/halflit/program/messages.hpp"
@@ -63,7 +64,7 @@ public:
             range_ = *mine;
         }
         if (const auto checked = check_paths_of_all(); !checked) return checked;
-        auto job = make_render_job(options_, kRenderSize);
+        auto job = make_render_job(options_);
         if (!job) return tl::unexpected(job.error());
         job_ = &*job;
         if (const auto spared = spare_inputs_of_all(); !spared) return spared;
@@ -183,7 +184,7 @@ private:
         SceneChanges changes;
         if (film.animates() && job_->source.motion && job_->animation() != nullptr) {
             job_->pose_time_s = film.time_s(number);
-            auto posed = pose_job(*job_, options_, job_->pose_time_s);
+            auto posed = pose_job(*job_, job_->pose_time_s);
             if (!posed) return tl::unexpected(posed.error());
             changes = std::move(*posed);
             const int of_file = job_->film.file_camera;

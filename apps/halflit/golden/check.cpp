@@ -37,14 +37,14 @@ enum class CameraUse : std::uint8_t {
 /// Draws by the camera that another run reads from the list. It may differ from that of the framing in the last bits.
 Result<void> keep_view(RenderJob& job, RenderOptions& options) {
     options.kept_view = kept_view(job.camera, job.film.bounds, job.settings, job.source.placement);
-    return change_job(job, options, kRenderSize, false);
+    return change_job(job, options, false);
 }
 
 Result<DrawnScene> draw(const GoldenList& list, const GoldenScene& scene, CameraUse cameras) {
     auto options = golden_options(list, scene);
     if (!options) return tl::unexpected(options.error());
     if (cameras == CameraUse::reframe) options->kept_view.reset();
-    auto job = make_render_job(*options, kRenderSize);
+    auto job = make_render_job(*options);
     if (!job) return tl::unexpected(job.error());
     DrawnScene drawn;
     drawn.framed = job->film.framed;

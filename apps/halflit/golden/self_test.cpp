@@ -52,7 +52,7 @@ Result<std::string> self_test_outcome(const SelfTestScene& scene, const std::vec
     auto options = parse_render_flags(words_of(scene.flags, ' '));
     if (!options) return tl::unexpected(options.error());
     options->scene = scene.scene;
-    auto job = make_render_job(*options, kRenderSize);
+    auto job = make_render_job(*options);
     if (!job) return tl::unexpected(job.error());
     for (const Isa isa : isas) {
         job->execution.isa = isa;
