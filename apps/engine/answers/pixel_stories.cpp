@@ -44,16 +44,10 @@ Result<PixelStories> explain(RenderOptions options, std::span<const PixelPlace> 
 }
 
 Flag pixel_flag(std::vector<PixelPlace>& pixels) {
-    const auto read_pixel = [&pixels](const std::string& text) -> Result<void> {
-        const auto place = parse_pixel(text);
-        if (!place) return tl::unexpected(place.error());
-        pixels.push_back(*place);
-        return {};
-    };
     return {.names = "--pixel",
             .form = "X,Y",
             .help = "The pixel, counted from the upper left corner; may be given several times",
-            .read = read_pixel,
+            .read = appended(pixels, parse_pixel),
             .repeated = true};
 }
 

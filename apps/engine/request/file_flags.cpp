@@ -30,12 +30,7 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
         std::string(kLastPictureGroup),
         {timeout_flag(o.timeout_s, "Time limit; a scene that is not drawn by then ends with exit code 5"),
          {"--max-memory", "MIB", "Memory limit of the process, at least 32; a scene that needs more ends with exit code 5",
-          parsed(o.max_memory_bytes,
-                 [](const std::string& text) {
-                     return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) {
-                         return static_cast<std::size_t>(n) * kMib;
-                     });
-                 })},
+          parsed(o.max_memory_bytes, parse_memory)},
          {"--strict", "", "Refuse a damaged file; without it, what can be read is drawn, with warnings", set_to(o.load.strict)},
          {.names = "--allow-external",
           .form = "DIR",
@@ -52,12 +47,7 @@ FlagGroup untrusted_file_flags(RenderOptions& o) {
          {.names = "--importer",
           .form = ".EXT=PROGRAM",
           .help = "Read files with this extension by a program that makes glTF of them",
-          .read = [&o](const std::string& text) -> Result<void> {
-              auto importer = Importer::from(text);
-              if (!importer) return tl::unexpected(importer.error());
-              o.load.importers.push_back(std::move(*importer));
-              return {};
-          },
+          .read = appended(o.load.importers, Importer::from),
           .repeated = true},
          {"--no-cache", "", "Do not keep what importers make in ~/.cache/halflit/import, and do not read it there",
           set_to(o.load.import_cache, false)},

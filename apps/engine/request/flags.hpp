@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace halflit::engine {
@@ -93,6 +94,12 @@ template <class Target, class Parser>
         target.push_back(text);
         return {};
     };
+}
+
+/// Appends what a parser reads.
+template <class T, class Parser>
+[[nodiscard]] ReadValue appended(std::vector<T>& target, Parser parser) {
+    return [&target, parser](const std::string& text) { return parser(text).map([&](T value) { target.push_back(std::move(value)); }); };
 }
 
 /// Sets a switch.

@@ -5,6 +5,7 @@
 #include "apps/engine/request/lobe_model.hpp"
 #include "apps/engine/request/plan_names.hpp"
 #include "apps/engine/request/setting_flags.hpp"
+#include "apps/io/files/text.hpp"
 #include "apps/io/models/formats.hpp"
 #include "halflit/scene.hpp"
 #include "sh/vec3d.hpp"
@@ -49,16 +50,6 @@ ReadValue read_name(std::string& target, const char* expected) {
         if (text.empty()) return fail(ErrorCode::usage, fmt::format("expected {}, found ''", expected));
         return text;
     });
-}
-
-/// Appends what a parser reads, for what may be given several times.
-template <class T, class Parser>
-ReadValue appended(std::vector<T>& target, Parser parser) {
-    return [&target, parser](const std::string& text) { return parser(text).map([&](T value) { target.push_back(std::move(value)); }); };
-}
-
-Result<Vec3f> parse_rgb(const std::string& text) {
-    return parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; });
 }
 
 Result<void> read_exposure(LightRequest& options, const std::string& text) {
@@ -126,8 +117,7 @@ Result<void> read_camera(ViewRequest& o, const std::string& text) {
 /// Other programs write "+Z" or "Z" for "z".
 std::string plain_axis(std::string text) {
     if (text.starts_with('+')) text.erase(0, 1);
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    std::transform(text.begin(), text.end(), text.begin(), io::lower);
     return text;
 }
 
@@ -146,19 +136,16 @@ FlagGroup camera_flags(RenderOptions& o) {
          {"--view", "front|back|left|right|top|bottom|iso|AZ,EL",
           "View the whole scene from this side; AZ,EL: from this azimuth and elevation, in degrees. All sides have the same distance and "
           "scale. Several, with commas or repeated: one picture for each, as -o '{view}.png'",
-          [&o](const std::string& text) -> Result<void> {
-              const auto views = parse_views(text);
-              if (!views) return tl::unexpected(views.error());
-              o.film.views.insert(o.film.views.end(), views->begin(), views->end());
+          [&o](const std::string& text) {
               o.whole_scene = true;
-              return {};
+              return parse_views(text).map([&](const auto& views) { o.film.views.insert(o.film.views.end(), views.begin(), views.end()); });
           },
           true},
          {"--fit", "PIXELS", "Fit the model into the picture with this margin; several views share the scale of the largest",
           [&o](const std::string& text) {
               o.whole_scene = true;
-              return assign(o.fit_px, parse_int(text, 0, 1 << 20).map([](std::int64_t n) {
-                  return std::optional(PictureSize{static_cast<int>(n), static_cast<int>(n)});
+              return assign(o.fit_px, parse_int(text, 0, 1 << 20).map([](auto n) {
+                  return PictureSize{static_cast<int>(n), static_cast<int>(n)};
               }));
           }},
          {"--ortho,--orthographic", "", "View the whole scene by parallel rays, without perspective",
@@ -303,10 +290,7 @@ FlagGroup surface_flags(RenderOptions& o) {
         "Surface",
         {of_stage(Stage::draw, {"--lobe", joined(lobe_name_list(), "|"),
                                 "Diffuse lobe: how reflected light depends on the angle to the light (default lambert)",
-                                [&o](const std::string& text) -> Result<void> {
-                                    o.lobe_name = text;
-                                    return {};
-                                }}),
+                                [&o](const std::string& text) { return assign(o.lobe_name, Result<std::string>(text)); }}),
          of_stage(Stage::draw,
                   {"--wrap", "W",
                    fmt::format("Wrap, 0 to {}: light reaches surfaces where the cosine between normal and light is above -W", kMaxLobeWrap),
@@ -314,10 +298,7 @@ FlagGroup surface_flags(RenderOptions& o) {
          of_stage(Stage::draw,
                   {"--power", "N", fmt::format("Exponent of the lobe, 0 to {}", kMaxLobePower), number(o.lobe.power, 0.0f, kMaxLobePower)}),
          of_stage(Stage::draw, {"--normalize", "", "Scale the lobe so that its mean over all light directions is Lambert's",
-                                [&o](const std::string&) -> Result<void> {
-                                    o.lobe.normalize = true;
-                                    return {};
-                                }}),
+                                [&o](const std::string&) { return assign(o.lobe.normalize, Result<bool>(true)); }}),
          {"--own-lobes", form_of(kOffOn),
           fmt::format("Let materials that have lobes of their own keep them (default {}); off: --lobe, --wrap and --power apply to all",
                       name_of(o.own_lobes, kOffOn)),

@@ -113,21 +113,14 @@ Result<void> set_light_key(GivenLight& given, float& intensity, std::string_view
     if (key == "range" && placed) return assign(light.range, parse_float(value, 0.0f, kMax));
     if (key == "radius" && placed) return assign(light.source_radius, parse_float(value, 0.0f, kMax));
     if (key == "size" && placed) return assign(light.shadow_radius, parse_float(value, 0.0f, kMax));
-    if (key == "size") {
-        const auto degrees = parse_float(value, 0.0f, 40.0f);
-        if (!degrees) return tl::unexpected(degrees.error());
-        light.shadow_radius = static_cast<float>(static_cast<double>(*degrees) * (kPi / 180.0));
-        return {};
-    }
+    if (key == "size")
+        return parse_float(value, 0.0f, 40.0f).map([&](double degrees) {
+            light.shadow_radius = static_cast<float>(degrees * (kPi / 180.0));
+        });
     if (key == "cone" && cone) return set_cone(light, value);
     if (key == "power" && cone) return assign(light.cone_power, parse_float(value, 0.0f, shading::kMaxConePower));
     if (key == "intensity") return assign(intensity, parse_float(value, 0.0f, 1e9f));
-    if (key == "color") {
-        const auto color = parse_color(value);
-        if (!color) return tl::unexpected(color.error());
-        light.color_linear = {color->x, color->y, color->z};
-        return {};
-    }
+    if (key == "color") return assign(light.color_linear, parse_rgb(value));
     const std::string keys = fmt::format("{}{}{}color, intensity{}, size", placed ? "pos, " : "", aimed ? "dir, " : "",
                                          cone ? "cone, power, " : "", placed ? ", range, radius" : "");
     return expected(fmt::format("one of {}", keys), key);
@@ -161,6 +154,10 @@ Result<double> parse_percent(std::string_view text) {
     const auto value = number<double>(text.substr(0, text.size() - (text.ends_with('%') ? 1 : 0)));
     if (!value || !(*value > 0.0 && *value < 100.0)) return expected("a number of percent above 0 and below 100, as 99.9", text);
     return *value;
+}
+
+Result<std::size_t> parse_memory(std::string_view text) {
+    return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) { return static_cast<std::size_t>(n) << 20; });
 }
 
 Result<double> parse_time(std::string_view text) {
@@ -252,6 +249,10 @@ Result<Vec4f> parse_color(std::string_view text) {
         default:
             return expected(kColorForms, text);
     }
+}
+
+Result<Vec3f> parse_rgb(std::string_view text) {
+    return parse_color(text).map([](Vec4f c) { return Vec3f{c.x, c.y, c.z}; });
 }
 
 Result<GivenLight> parse_light(std::string_view text) {

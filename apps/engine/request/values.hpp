@@ -25,8 +25,8 @@ namespace halflit::engine {
 /// "99.9" or "99.9%": a number above 0 and below 100.
 [[nodiscard]] Result<double> parse_percent(std::string_view text);
 
-/// Bytes in a mebibyte, the unit of the flags of memory.
-inline constexpr std::size_t kMib = std::size_t{1} << 20;
+/// Mebibytes from 32, as bytes.
+[[nodiscard]] Result<std::size_t> parse_memory(std::string_view text);
 
 /// Seconds within a year or so of 0.
 [[nodiscard]] Result<double> parse_time(std::string_view text);
@@ -62,6 +62,8 @@ struct PixelPlace {
 
 /// "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a name of CSS 2 in any case, or "transparent", to linear light with linear alpha.
 [[nodiscard]] Result<Vec4f> parse_color(std::string_view text);
+/// The same without alpha.
+[[nodiscard]] Result<Vec3f> parse_rgb(std::string_view text);
 
 /// A light, and the position that was given for it, which the light holds rounded to float.
 struct GivenLight {

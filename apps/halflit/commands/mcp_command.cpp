@@ -13,9 +13,6 @@ namespace halflit::cli {
 Command mcp_command() {
     const auto options = std::make_shared<McpOptions>();
     McpOptions& o = *options;
-    const auto read_memory = [](const std::string& text) {
-        return parse_int(text, 32, std::int64_t{1} << 30).map([](std::int64_t n) { return static_cast<std::size_t>(n) * kMib; });
-    };
     return {
         "mcp",
         "Offer tools to agents: the Model Context Protocol on standard input and output",
@@ -27,7 +24,7 @@ Command mcp_command() {
                         fmt::format("Time limit of a call; one that takes longer ends with an error (default {})", o.timeout_s)),
            {"--max-memory", "MIB",
             "Memory limit of the process, at least 32; a call that needs more ends with an error (default: no limit)",
-            parsed(o.max_memory_bytes, read_memory)}}}},
+            parsed(o.max_memory_bytes, parse_memory)}}}},
         [options] { return serve(*options); }};
 }
 
