@@ -6,24 +6,15 @@
 
 #include <algorithm>
 #include <memory>
-#include <tuple>
 #include <utility>
 
 namespace halflit::engine {
 namespace {
 
-/// All that decides what is loaded. A new member does not compile here until it is added.
-auto key_of(const LoadLimits& limits) {
-    const auto& [file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, work, lights, seconds] = limits;
-    (void)seconds;  // decides whether it is loaded
-    return std::tuple(file, total, depth, tokens, texture_bytes, side, pixels, scans, geometry, work, lights);
-}
-auto key_of(const LoadOptions& options) {
-    const auto& [strict, external, limits, threads, recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate, detail, exact,
-                 cache, importers] = options;
-    (void)threads, (void)cache;  // the result is the same
-    return std::make_tuple(strict, external, key_of(limits), recentre, scene, variant, animation, time_s, keep, up, crease_deg, plate,
-                           detail, exact, importers);
+/// All that decides what is loaded. The limit of time decides whether it is.
+LoadOptions key_of(LoadOptions options) {
+    options.threads = 0, options.import_cache = false, options.limits.time_limit_s = 0.0;
+    return options;
 }
 
 std::size_t bytes_of_scene(const Scene& scene) {
@@ -36,15 +27,10 @@ std::size_t bytes_of_scene(const Scene& scene) {
 }
 
 SceneSource copy_of(const SceneSource& source) {
-    return {source.name,
-            std::make_unique<Scene>(*source.scene),
-            source.file,
-            source.warnings,
-            source.animations,
-            source.animation,
-            source.placement,
-            source.motion,
-            std::make_shared<Parts>(*source.parts)};
+    SceneSource copy = source;
+    copy.scene = std::make_shared<Scene>(*source.scene);
+    copy.parts = std::make_shared<Parts>(*source.parts);
+    return copy;
 }
 
 }  // namespace
@@ -61,8 +47,9 @@ bool KeptScenes::is_fresh(const Kept& kept) {
 
 Result<SceneSource> KeptScenes::load(const ModelRequest& model) {
     kept_.remove_if([](const Kept& kept) { return !is_fresh(kept); });
-    const auto found = std::find_if(kept_.begin(), kept_.end(),
-                                    [&](const Kept& kept) { return kept.scene == model.scene && key_of(kept.load) == key_of(model.load); });
+    const LoadOptions key = key_of(model.load);
+    const auto found =
+        std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.scene == model.scene && kept.load == key; });
     if (found != kept_.end()) {
         kept_.splice(kept_.begin(), kept_, found);
         return copy_of(kept_.front().source);
@@ -74,7 +61,7 @@ Result<SceneSource> KeptScenes::load(const ModelRequest& model) {
     if (bytes > kMostBytes / 2) return source;
     if (source->file)
         for (const std::string& path : source->file->files) files.push_back(state_of(path));
-    kept_.push_front({model.scene, model.load, std::move(files), copy_of(*source), bytes});
+    kept_.push_front({model.scene, key, std::move(files), copy_of(*source), bytes});
     std::size_t all = 0, scenes = 0;
     for (auto kept = kept_.begin(); kept != kept_.end();) {
         all += kept->bytes;

@@ -49,7 +49,7 @@ Result<SceneSource> load_scene(const ModelRequest& model) {
     if (*built_in) {
         const UpAxis up = model.load.up.value_or(UpAxis::y);
         turn_upright(**built_in, up);
-        auto scene = std::make_unique<Scene>(std::move(**built_in));
+        auto scene = std::make_shared<Scene>(std::move(**built_in));
         auto parts = std::make_shared<Parts>(*scene);
         return SceneSource{.name = name,
                            .scene = std::move(scene),
@@ -65,7 +65,7 @@ Result<SceneSource> load_scene(const ModelRequest& model) {
     if (!loaded) return tl::unexpected(loaded.error());
     auto parts = std::make_shared<Parts>(*loaded);
     return SceneSource{name == "-" ? kStandardInputName : name,
-                       std::make_unique<Scene>(std::move(loaded->scene)),
+                       std::make_shared<Scene>(std::move(loaded->scene)),
                        std::move(loaded->info),
                        std::move(loaded->warnings),
                        std::move(loaded->animations),

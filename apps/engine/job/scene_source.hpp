@@ -17,7 +17,7 @@ namespace halflit::engine {
 
 struct SceneSource {
     std::string name;               ///< name for messages: the path, "standard input", or the built-in name
-    std::unique_ptr<Scene> scene;   ///< keeps its address when the source is moved
+    std::shared_ptr<Scene> scene;   ///< of this source alone; keeps its address when the source is moved
     std::optional<SceneInfo> file;  ///< counts for a file or standard input; the unit of such a scene's lights is not known
     std::vector<std::string> warnings;
     std::vector<AnimationInfo> animations{};  ///< of the file

@@ -64,6 +64,7 @@ struct LoadLimits {
     std::uint64_t max_work = 0;
     std::size_t max_lights = 1024;  ///< lights of the drawn nodes
     double time_limit_s = 0.0;      ///< wall clock, checked between the parts of the file; 0: no limit
+    friend bool operator==(const LoadLimits&, const LoadLimits&) = default;
 };
 
 /// A program that turns files of another format into glTF. docs/formats.md says how it is called.
@@ -123,6 +124,7 @@ struct LoadOptions {
     /// Asked before the formats that are known, by the file's name; the first one with its extension counts. Then those of the user's file
     /// halflit/importers in XDG_CONFIG_HOME or ~/.config: a line ".ext=PROGRAM" for each.
     std::vector<Importer> importers{};
+    friend bool operator==(const LoadOptions&, const LoadOptions&) = default;
 };
 
 /// An animation of a file.
