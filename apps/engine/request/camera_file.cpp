@@ -64,6 +64,17 @@ Result<void> read_cameras(std::span<const std::byte> bytes, const LoadOptions& l
                 into.path + ": no file of cameras: expected JSON of cameras, transforms.json, COLMAP's images.txt, or a glTF file");
 }
 
+/// load: limits and threads.
+Result<CameraFile> read_camera_file(const std::string& path, const LoadOptions& load) {
+    CameraFile file;
+    file.path = is_folder(path) ? path_in(path, "images.txt") : path;
+    const auto bytes = io::read_file(file.path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (const auto read = read_cameras(*bytes, load, file); !read) return tl::unexpected(read.error());
+    if (file.cameras.empty()) return fail(ErrorCode::bad_input, file.path + ": has no camera");
+    return file;
+}
+
 /// Names for the cameras' pictures: the names without folder and extension, with other characters than letters, digits, "-", "_" and "."
 /// replaced by "_". Each is used once: of equal ones, and of names of nothing else, all but the first get the camera's index.
 std::vector<std::string> picture_names(const CameraFile& file) {
@@ -98,16 +109,6 @@ Result<PictureSize> checked_size(double width, double height) {
 }
 
 }  // namespace detail
-
-Result<CameraFile> read_camera_file(const std::string& path, const LoadOptions& load) {
-    CameraFile file;
-    file.path = is_folder(path) ? path_in(path, "images.txt") : path;
-    const auto bytes = io::read_file(file.path);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (const auto read = read_cameras(*bytes, load, file); !read) return tl::unexpected(read.error());
-    if (file.cameras.empty()) return fail(ErrorCode::bad_input, file.path + ": has no camera");
-    return file;
-}
 
 Result<void> settle_cameras(RenderOptions& o) {
     if (o.camera_file.empty()) {

@@ -12,12 +12,9 @@
 
 namespace halflit::engine {
 
-/// Reads the cameras of a file, whose format is found by its content; of a folder, its images.txt. The file is not trusted: sizes, depth
-/// and counts are limited, and numbers checked. Warns of lenses with distortion, which is left out. load: limits and scene of a glTF file.
-[[nodiscard]] Result<CameraFile> read_camera_file(const std::string& path, const LoadOptions& load);
-
 /// Reads --camera-file, if there is one and it is not read yet, and puts the names of all its cameras' pictures into the views for
-/// --camera all.
+/// --camera all. Its format is found by its content; of a folder, it is the images.txt. The file is not trusted: sizes, depth and counts
+/// are limited, and numbers checked. Warns of lenses with distortion, which is left out.
 [[nodiscard]] Result<void> settle_cameras(RenderOptions& options);
 
 namespace detail {
