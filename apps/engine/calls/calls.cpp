@@ -5,7 +5,6 @@
 #include "apps/engine/basics/file_names.hpp"
 #include "apps/engine/calls/call.hpp"
 #include "apps/engine/compare/compare_files.hpp"
-#include "apps/engine/job/light_choice.hpp"
 #include "apps/engine/job/picture_judgement.hpp"
 #include "apps/engine/look/look.hpp"
 #include "apps/engine/request/request_check.hpp"

@@ -1,6 +1,6 @@
 #include "apps/engine/job/film_view.hpp"
 
-#include "apps/engine/job/light_choice.hpp"
+#include "apps/engine/job/job_steps.hpp"
 #include "halflit/camera.hpp"
 #include "raster/scene/framed_part.hpp"
 #include "raster/scene/placed_point.hpp"

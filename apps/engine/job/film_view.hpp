@@ -10,9 +10,6 @@ namespace halflit::engine {
 /// --shininess replaced.
 [[nodiscard]] Result<SceneChanges> pose_job(RenderJob& job, double time_s);
 
-/// The box of the scene in 33 poses, from time 0 to the animation's end at even distances. Leaves the scene in the pose of time 0.
-[[nodiscard]] Result<Bounds> swept_bounds(RenderJob& job);
-
 /// A view of the whole scene for all frames. Requires: they move, and `bounds` is not empty. A turntable keeps all that turns in view from
 /// all sides: what the scene sweeps in its turn around the vertical axis through the centre of `bounds`. Otherwise an animation keeps
 /// `bounds` in view.

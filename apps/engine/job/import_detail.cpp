@@ -1,4 +1,4 @@
-#include "apps/engine/job/import_detail.hpp"
+#include "apps/engine/job/job_steps.hpp"
 
 #include "sh/mat4.hpp"
 #include "sh/trig.hpp"

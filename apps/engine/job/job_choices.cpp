@@ -1,4 +1,4 @@
-#include "apps/engine/job/job_choices.hpp"
+#include "apps/engine/job/job_steps.hpp"
 
 #include "apps/engine/request/camera_file.hpp"
 #include "apps/io/files/text.hpp"
@@ -15,19 +15,12 @@ namespace halflit::engine {
 namespace {
 
 std::string_view reason_text(ViewReason reason) {
-    switch (reason) {
-        case ViewReason::flat:
-            return ", as it is flat";
-        case ViewReason::hollow:
-            return ", as it is open at the top";
-        case ViewReason::thin:
-            return ", as it is upright and thin";
-        case ViewReason::backs:
-            return ", as the usual side shows backs alone";
-        case ViewReason::usual:
-        case ViewReason::given:
-            break;
-    }
+    constexpr std::pair<ViewReason, std::string_view> kTexts[] = {{ViewReason::flat, ", as it is flat"},
+                                                                  {ViewReason::hollow, ", as it is open at the top"},
+                                                                  {ViewReason::thin, ", as it is upright and thin"},
+                                                                  {ViewReason::backs, ", as the usual side shows backs alone"}};
+    for (const auto& [of, text] : kTexts)
+        if (of == reason) return text;
     return "";
 }
 
@@ -50,32 +43,7 @@ std::string camera_choice(const Camera* of_file, const ViewRequest& request, con
                        reason_text(reason), replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
 }
 
-}  // namespace
-
-void tell_choices(RenderJob& job, const RenderOptions& given) {
-    const std::vector<Camera>& cameras = job.scene().cameras;
-    const bool of_file = job.film.file_camera >= 0;
-    job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
-                                        given.film.views.empty() ? "" : given.film.views.front().name,
-                                        job.film.view.value_or(front_view(job.scene(), given.view)), job.film.reason,
-                                        !of_file && !cameras.empty() && !given.asks_for_frame()));
-    const std::size_t lights = job.light.all_lights().size(), added = job.light.lights.size() - job.film.choice.light->lights.size();
-    job.choices.push_back(fmt::format("lights: {}{}{}{}", lights,
-                                      added == 0        ? ""
-                                      : added == lights ? ", added by default"
-                                                        : fmt::format(", {} of them added by default", added),
-                                      job.light.environment == nullptr ? ""
-                                      : given.environment.empty()      ? ", and the environment studio"
-                                                                       : ", and the environment " + given.environment,
-                                      job.light.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
-    job.choices.push_back(fmt::format("exposure: {}, {:+.2f} stops{}", job.settings.exposure, std::log2(double{job.settings.exposure}),
-                                      given.exposure ? "" : ", chosen"));
-    if (!given.background_linear && !given.settings.background_environment)
-        job.choices.push_back(fmt::format("background: {}", job.settings.background_linear == usual_settings().background_linear
-                                                                ? "dark grey"
-                                                                : "light grey, as surfaces are dark"));
-}
-
+/// Grounds are not named: they are seen to be cut off.
 void warn_of_left_out(RenderJob& job) {
     constexpr std::size_t kMostNamed = 5;
     const NameOfInstance name_of = names_of(job.source.parts);
@@ -100,11 +68,37 @@ void warn_of_left_out(RenderJob& job) {
                                     reason == raster::LeftOutFor::far ? "far from all else" : "around all else"));
     }
     if (named.empty()) return;
-    std::string list;
-    for (std::size_t i = 0; i < std::min(named.size(), kMostNamed); ++i) list += (i == 0 ? "" : "; ") + named[i];
-    if (named.size() > kMostNamed) list += fmt::format("; and {} more", named.size() - kMostNamed);
-    std::string warning = "the view of the whole leaves out: " + list;
+    const std::size_t more = named.size() - std::min(named.size(), kMostNamed);
+    named.resize(named.size() - more);
+    std::string warning = "the view of the whole leaves out: " + joined(named, "; ") + (more > 0 ? fmt::format("; and {} more", more) : "");
     if (std::find(job.warnings.begin(), job.warnings.end(), warning) == job.warnings.end()) job.warnings.push_back(std::move(warning));
+}
+
+}  // namespace
+
+void tell_choices(RenderJob& job, const RenderOptions& given) {
+    if (job.film.framed && !given.kept_view) warn_of_left_out(job);
+    const std::vector<Camera>& cameras = job.scene().cameras;
+    const bool of_file = job.film.file_camera >= 0;
+    job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
+                                        given.film.views.empty() ? "" : given.film.views.front().name,
+                                        job.film.view.value_or(front_view(job.scene(), given.view)), job.film.reason,
+                                        !of_file && !cameras.empty() && !given.asks_for_frame()));
+    const std::size_t lights = job.light.all_lights().size(), added = job.light.lights.size() - job.film.choice.light->lights.size();
+    job.choices.push_back(fmt::format("lights: {}{}{}{}", lights,
+                                      added == 0        ? ""
+                                      : added == lights ? ", added by default"
+                                                        : fmt::format(", {} of them added by default", added),
+                                      job.light.environment == nullptr ? ""
+                                      : given.environment.empty()      ? ", and the environment studio"
+                                                                       : ", and the environment " + given.environment,
+                                      job.light.ambient.sky_linear == Vec3f{} ? "" : ", and ambient light"));
+    job.choices.push_back(fmt::format("exposure: {}, {:+.2f} stops{}", job.settings.exposure, std::log2(double{job.settings.exposure}),
+                                      given.exposure ? "" : ", chosen"));
+    if (!given.background_linear && !given.settings.background_environment)
+        job.choices.push_back(fmt::format("background: {}", job.settings.background_linear == usual_settings().background_linear
+                                                                ? "dark grey"
+                                                                : "light grey, as surfaces are dark"));
 }
 
 }  // namespace halflit::engine

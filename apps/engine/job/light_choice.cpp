@@ -1,4 +1,4 @@
-#include "apps/engine/job/light_choice.hpp"
+#include "apps/engine/job/job_steps.hpp"
 
 #include "apps/io/models/scaled_lengths.hpp"
 #include "raster/choice/completed_light.hpp"

@@ -1,7 +1,6 @@
-#include "apps/engine/job/part_choice.hpp"
+#include "apps/engine/job/job_steps.hpp"
 
 #include "apps/engine/job/part_finder.hpp"
-#include "apps/engine/job/render_job.hpp"
 #include "sh/time_limit.hpp"
 
 #include <fmt/core.h>

@@ -1,13 +1,7 @@
 #include "apps/engine/job/render_job.hpp"
 
 #include "apps/engine/basics/timeout.hpp"
-#include "apps/engine/job/film_view.hpp"
-#include "apps/engine/job/import_detail.hpp"
-#include "apps/engine/job/job_choices.hpp"
-#include "apps/engine/job/light_choice.hpp"
-#include "apps/engine/job/part_choice.hpp"
-#include "apps/engine/job/section_cuts.hpp"
-#include "apps/engine/job/view_choice.hpp"
+#include "apps/engine/job/job_steps.hpp"
 #include "apps/engine/request/camera_file.hpp"
 #include "apps/engine/request/request_check.hpp"
 #include "apps/io/models/scaled_lengths.hpp"
@@ -104,12 +98,6 @@ Result<void> set_up(RenderJob& job, const RenderOptions& options, bool same_ligh
     return {};
 }
 
-/// What people are told of it.
-void tell(RenderJob& job, const RenderOptions& options) {
-    if (job.film.framed && !options.kept_view) warn_of_left_out(job);
-    tell_choices(job, options);
-}
-
 /// Shows the parts that are asked for, cut and painted, with a ground. moves: by an animation; then its box is known at last.
 Result<void> shape(RenderJob& job, const ContentRequest& content, bool moves) {
     replace_materials(job.scene(), content.classic);
@@ -168,7 +156,7 @@ Result<RenderJob> make_job(const RenderOptions& options, const Settings& setting
             job.warnings.push_back(std::string(kCoarse) + again.error().message);
         }
     }
-    tell(job, options);
+    tell_choices(job, options);
     return job;
 }
 
@@ -232,7 +220,7 @@ Result<void> change_job(RenderJob& job, RenderOptions options, bool same_light) 
     job.settings = *settings;
     if (const auto done = set_up(job, options, same_light); !done) return done;
     job.choices.clear();
-    tell(job, options);
+    tell_choices(job, options);
     return {};
 }
 

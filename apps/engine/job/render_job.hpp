@@ -75,6 +75,12 @@ struct RenderJob {
 /// Takes the materials' own lobes away, so that the settings' lobe counts for all.
 void drop_own_lobes(Scene& scene);
 
+/// Turns the light that was chosen for the viewer, such as the studio, with another camera. The exposure stays. False: there is none.
+bool relight(RenderJob& job, const Camera& camera);
+
+/// Moves the file's lights in the job's light to where they are in the scene.
+void follow_lights(RenderJob& job);
+
 /// Chooses the light anew, from the scene's own, by the flags' lights, environment and exposure. The camera and other settings stay.
 [[nodiscard]] Result<void> change_light(RenderJob& job, const LightRequest& request);
 

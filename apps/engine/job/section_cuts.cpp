@@ -1,5 +1,6 @@
 #include "apps/engine/job/section_cuts.hpp"
 
+#include "apps/engine/job/job_steps.hpp"
 #include "halflit/up_axis.hpp"
 #include "sh/vec3d.hpp"
 

@@ -1,4 +1,4 @@
-// The planes of --section, and what the report says of them.
+// What reports say of the planes of --section.
 #pragma once
 
 #include "apps/engine/job/render_job.hpp"
@@ -6,9 +6,6 @@
 #include <string>
 
 namespace halflit::engine {
-
-/// Cuts the job's scene by the flags' planes, and adds lines of choices and warnings. Nodes of a file are parts.
-[[nodiscard]] Result<void> cut_job(RenderJob& job, const ContentRequest& request);
 
 /// Area of a section in square units of the file.
 [[nodiscard]] double file_area(const RenderJob& job, const SectionCut& cut);

@@ -1,6 +1,7 @@
 #include "apps/engine/job/view_choice.hpp"
 
 #include "apps/engine/job/film_view.hpp"
+#include "apps/engine/job/job_steps.hpp"
 #include "apps/engine/request/camera_file.hpp"
 #include "sh/arc.hpp"
 #include "sh/trig.hpp"

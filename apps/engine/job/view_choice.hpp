@@ -1,4 +1,4 @@
-// The view of a job: the camera that the flags place or choose, or what the library is asked for.
+// Cameras that the flags place.
 #pragma once
 
 #include "apps/engine/job/render_job.hpp"
@@ -14,12 +14,5 @@ namespace halflit::engine {
 /// The views' sides. Names are relative to the scene's front.
 [[nodiscard]] std::vector<ViewSettings> given_sides(const SceneSource& source, const ViewRequest& request,
                                                     const std::vector<GivenView>& views);
-
-/// The view that the flags ask for, and the light that was begun. Sets the views and bounds of RenderJob::film. frame: a view of the whole
-/// scene or of its parts is asked for.
-[[nodiscard]] Result<PictureRequest> picture_request(RenderJob& job, const ViewRequest& request, const FilmOptions& film, bool frame);
-
-/// Keeps what was chosen for people to read, and warns where the usual side shows nothing.
-void tell_view(RenderJob& job, const ViewSettings& drawn, ViewReason reason);
 
 }  // namespace halflit::engine

@@ -1,6 +1,5 @@
 #include "apps/engine/look/view_shot.hpp"
 
-#include "apps/engine/job/light_choice.hpp"
 #include "raster/view/projection.hpp"
 #include "sh/mat4.hpp"
 #include "sh/vec3d.hpp"

@@ -7,7 +7,6 @@
 #include "apps/engine/basics/stopwatch.hpp"
 #include "apps/engine/film/film_writer.hpp"
 #include "apps/engine/job/film_view.hpp"
-#include "apps/engine/job/light_choice.hpp"
 #include "apps/engine/job/render_job.hpp"
 #include "apps/halflit/program/interrupt.hpp"
 #include "apps/halflit/program/messages.hpp"
