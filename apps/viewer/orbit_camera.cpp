@@ -67,7 +67,8 @@ void OrbitCamera::zoom(double steps) {
 Camera OrbitCamera::camera() const {
     if (!moved_) return start_;
     constexpr float kDegrees = static_cast<float>(180.0 / kPi);
-    Camera camera = engine::placed_camera(to_float(target_ + back() * distance_), to_float(target_), start_.fov_y_rad * kDegrees, bounds_);
+    Camera camera =
+        engine::placed_camera(look_at(to_float(target_ + back() * distance_), to_float(target_)), start_.fov_y_rad * kDegrees, bounds_);
     camera.name = start_.name;
     camera.aspect = start_.aspect;
     if (start_.orthographic) {

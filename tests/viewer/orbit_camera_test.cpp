@@ -33,7 +33,7 @@ double off_axis(const Camera& camera, Vec3d p) { return length(cross(p - column(
 const Vec3d kCenter{1, 0, 0};
 
 /// Looks at the centre.
-Camera centred() { return engine::placed_camera({7, 3, 9}, to_float(kCenter), 40.0f, box()); }
+Camera centred() { return engine::placed_camera(look_at({7, 3, 9}, to_float(kCenter)), 40.0f, box()); }
 
 }  // namespace
 
@@ -125,7 +125,7 @@ TEST_CASE("orbit camera: its flags place a camera with the same view, far from t
         const auto options = engine::parse_render_flags(flags);
         REQUIRE(options);
         const auto drawn = [&](Vec3d p) { return to_float(placement.into(p)); };
-        const Camera placed = engine::placed_camera(drawn(options->camera_position.value()), drawn(options->camera_target.value()),
+        const Camera placed = engine::placed_camera(look_at(drawn(options->camera_position.value()), drawn(options->camera_target.value())),
                                                     options->view.fov_y_deg, box());
         const Mat4 a = raster::clip_from_world(placed, 1.5f), b = raster::clip_from_world(orbit.camera(), 1.5f);
         for (int i = 0; i < 4; ++i)

@@ -80,7 +80,9 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
     report["load_ms"] = job.load_ms;
     report["prepare_ms"] = job.prepare_ms;
     report["render_ms"] = rendered.total_ms;
-    report["stages"] = stages_ms(rendered);
+    const auto& ms = rendered.ms;
+    report["stages"] = {{"plan", ms.plan},           {"shadows", ms.shadows}, {"cull", ms.cull},
+                        {"transform", ms.transform}, {"bin", ms.bin},         {"tiles", ms.tiles}};
     report["triangles_submitted"] = rendered.triangles_submitted;
     report["triangles_drawn"] = rendered.triangles_drawn;
     report["triangles_not_finite"] = rendered.triangles_not_finite;
@@ -140,12 +142,6 @@ Json region_json(const Region& region) { return {region.x, region.y, region.widt
 
 Json pose_json(const RenderJob& job) {
     return {{"animation", job.source.animation}, {"name", job.animation()->name}, {"time_s", job.pose_time_s}};
-}
-
-Json stages_ms(const RenderReport& rendered) {
-    const auto& ms = rendered.ms;
-    return {{"plan", ms.plan},           {"shadows", ms.shadows}, {"cull", ms.cull},
-            {"transform", ms.transform}, {"bin", ms.bin},         {"tiles", ms.tiles}};
 }
 
 Json environment_use_json(const EnvironmentUse& use, const Settings& settings) {

@@ -35,9 +35,6 @@ void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered,
 /// {"animation", "name", "time_s"}. Requires: an animation poses the scene.
 [[nodiscard]] Json pose_json(const RenderJob& job);
 
-/// {"plan": ms, ...}: the renderer's stages.
-[[nodiscard]] Json stages_ms(const RenderReport& rendered);
-
 /// {"order", "bound_linear", "bound_of_white", "tolerance_of_white", "within"}: the number of bands in use, and the bound on the error of
 /// leaving out the others: in linear light before exposure, and as a fraction of display white.
 [[nodiscard]] Json environment_use_json(const EnvironmentUse& use, const Settings& settings);

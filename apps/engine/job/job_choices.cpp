@@ -24,23 +24,27 @@ std::string_view reason_text(ViewReason reason) {
     return "";
 }
 
-/// side: the first of --view; may be empty. view: of the whole scene. replaces: the file has a camera that shows the scene small or not at
-/// all.
-std::string camera_choice(const Camera* of_file, const ViewRequest& request, const std::string& side, const ViewSettings& view,
-                          ViewReason reason, bool replaces) {
-    if (of_file != nullptr) return "camera: the file's" + (of_file->name.empty() ? "" : ", " + of_file->name);
-    if (request.cameras) {
-        const CameraFile& file = *request.cameras;
-        const bool all = request.camera == kAllCameras;
-        const std::string& name = all ? "" : file.cameras[find_camera(file, request.camera.value_or("")).value_or(0)].name;
+std::string camera_choice(const RenderJob& job, const RenderOptions& given) {
+    const std::vector<Camera>& cameras = job.scene().cameras;
+    if (job.film.file_camera >= 0) {
+        const std::string& name = cameras[static_cast<std::size_t>(job.film.file_camera)].name;
+        return "camera: the file's" + (name.empty() ? "" : ", " + name);
+    }
+    if (given.cameras) {
+        const CameraFile& file = *given.cameras;
+        const bool all = given.camera == kAllCameras;
+        const std::string& name = all ? "" : file.cameras[find_camera(file, given.camera.value_or("")).value_or(0)].name;
         return "camera: " + (all ? "all" : name.empty() ? "one" : io::printable(name)) + " of " + file.path;
     }
-    if (request.camera_orbit) return "camera: in the orbit " + request.camera_orbit->text;
-    if (request.camera_position)
-        return fmt::format("camera: at {},{},{}", request.camera_position->x, request.camera_position->y, request.camera_position->z);
-    if (!side.empty()) return fmt::format("camera: the whole scene, {}, all sides at one scale", side);
+    if (given.camera_orbit) return "camera: in the orbit " + given.camera_orbit->text;
+    if (given.camera_position)
+        return fmt::format("camera: at {},{},{}", given.camera_position->x, given.camera_position->y, given.camera_position->z);
+    if (!given.film.views.empty()) return fmt::format("camera: the whole scene, {}, all sides at one scale", given.film.views.front().name);
+    const ViewSettings view = job.film.view.value_or(front_view(job.scene(), given.view));
+    const bool replaces = !cameras.empty() && !given.asks_for_frame();
     return fmt::format("camera: a view of the whole scene, azimuth {}, elevation {}{}{}", view.azimuth_deg, view.elevation_deg,
-                       reason_text(reason), replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
+                       reason_text(job.film.reason),
+                       replaces ? "; the file's shows the scene small or not at all (--camera 0: by it)" : "");
 }
 
 /// Grounds are not named: they are seen to be cut off.
@@ -78,12 +82,7 @@ void warn_of_left_out(RenderJob& job) {
 
 void tell_choices(RenderJob& job, const RenderOptions& given) {
     if (job.film.framed && !given.kept_view) warn_of_left_out(job);
-    const std::vector<Camera>& cameras = job.scene().cameras;
-    const bool of_file = job.film.file_camera >= 0;
-    job.choices.push_back(camera_choice(of_file ? &cameras[static_cast<std::size_t>(job.film.file_camera)] : nullptr, given,
-                                        given.film.views.empty() ? "" : given.film.views.front().name,
-                                        job.film.view.value_or(front_view(job.scene(), given.view)), job.film.reason,
-                                        !of_file && !cameras.empty() && !given.asks_for_frame()));
+    job.choices.push_back(camera_choice(job, given));
     const std::size_t lights = job.light.all_lights().size(), added = job.light.lights.size() - job.film.choice.light->lights.size();
     job.choices.push_back(fmt::format("lights: {}{}{}{}", lights,
                                       added == 0        ? ""

@@ -19,12 +19,6 @@
 namespace halflit::engine {
 namespace {
 
-Result<void> limit_process_memory(std::size_t bytes) {
-    const int error = platform::limit_memory(bytes);
-    if (error == 0) return {};
-    return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + platform::errno_text(error));
-}
-
 /// Of an importer's triangles.
 constexpr const char* kCoarse = "triangles may be more than a quarter of a pixel off: ";
 
@@ -166,7 +160,8 @@ Result<Settings> settle(RenderOptions& options) {
     if (const auto checked = check_view(options, options.film.views, options.settings.region); !checked)
         return tl::unexpected(checked.error());
     if (options.max_memory_bytes > 0)
-        if (const auto limited = limit_process_memory(options.max_memory_bytes); !limited) return tl::unexpected(limited.error());
+        if (const int error = platform::limit_memory(options.max_memory_bytes); error != 0)
+            return fail(ErrorCode::limit, std::string("--max-memory: the system does not set the limit: ") + platform::errno_text(error));
     if (!options.execution.isa) {
         const auto isa = default_isa();
         if (!isa) return fail(ErrorCode::usage, isa.error().message);

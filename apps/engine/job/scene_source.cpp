@@ -11,10 +11,7 @@ namespace {
 
 Result<LoadedScene> load_file(const ModelRequest& model) {
     if (model.scene != "-") return load_model(model.scene, model.load);
-    if (model.input != nullptr) return load_model_bytes(*model.input, kStandardInputName, "", model.load);
-    const auto bytes = read_standard_input(model.load.limits.max_file_bytes, model.load.limits.time_limit_s);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return load_model_bytes(*bytes, kStandardInputName, "", model.load);
+    return load_model_bytes(*model.input, kStandardInputName, "", model.load);
 }
 
 bool is_address(const std::string& name) {

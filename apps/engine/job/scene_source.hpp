@@ -46,7 +46,8 @@ public:
     [[nodiscard]] virtual Result<SceneSource> load(const ModelRequest& model) = 0;
 };
 
-/// An empty name is the demo scene. Built-in names come before files: a file called "demo" is given as "./demo".
+/// Requires: standard input, if it is the scene, was read. An empty name is the demo scene. Built-in names come before files: a file called
+/// "demo" is given as "./demo".
 [[nodiscard]] Result<SceneSource> load_scene(const ModelRequest& model);
 
 /// True for what load_scene can be asked for: a built-in scene, standard input ("-"), a model's name or a file that is there.

@@ -115,10 +115,6 @@ Camera placed_camera(const Mat4& world_from_camera, float fov_y_deg, const Bound
     return completed(camera, bounds);
 }
 
-Camera placed_camera(Vec3f eye, Vec3f target, float fov_y_deg, const Bounds& bounds) {
-    return placed_camera(look_at(eye, target), fov_y_deg, bounds);
-}
-
 std::vector<ViewSettings> given_sides(const SceneSource& source, const ViewRequest& request, const std::vector<GivenView>& views) {
     constexpr double kDegrees = 180.0 / kPi;
     std::vector<ViewSettings> sides;
@@ -167,8 +163,8 @@ Result<PictureRequest> picture_request(RenderJob& job, const ViewRequest& reques
         const Vec3d target = request.camera_target ? drawn_at(*request.camera_target, placement)
                              : bounds.empty        ? Vec3d{}
                                                    : to_double(bounds.center());
-        picture.camera =
-            placed_camera(to_float(drawn_at(*request.camera_position, placement)), to_float(target), request.view.fov_y_deg, bounds);
+        const Mat4 place = look_at(to_float(drawn_at(*request.camera_position, placement)), to_float(target));
+        picture.camera = placed_camera(place, request.view.fov_y_deg, bounds);
     } else {
         picture.scene_camera = request.camera;
         picture.frame = frame;

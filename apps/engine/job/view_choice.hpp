@@ -5,11 +5,8 @@
 
 namespace halflit::engine {
 
-/// Perspective camera at a place, whose near plane the box of the scene decides.
+/// Perspective camera at a place, as of look_at(), whose near plane the box of the scene decides.
 [[nodiscard]] Camera placed_camera(const Mat4& world_from_camera, float fov_y_deg, const Bounds& bounds);
-
-/// Perspective camera at `eye` that looks at `target`, with +y up.
-[[nodiscard]] Camera placed_camera(Vec3f eye, Vec3f target, float fov_y_deg, const Bounds& bounds);
 
 /// The views' sides. Names are relative to the scene's front.
 [[nodiscard]] std::vector<ViewSettings> given_sides(const SceneSource& source, const ViewRequest& request,

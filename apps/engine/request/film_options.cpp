@@ -14,13 +14,9 @@
 #include <vector>
 
 namespace halflit::engine {
-namespace {
-
-constexpr std::int64_t kMostFrame = 9'999'999;
-
-}  // namespace
 
 Result<FrameRange> parse_frames(std::string_view text) {
+    constexpr std::int64_t kMostFrame = 9'999'999;
     const auto wrong = [&] {
         return fail(ErrorCode::usage, fmt::format("expected A-B or A-B:STEP, with A up to B and B up to {}, as 0-47 or 0-47:2, found '{}'",
                                                   kMostFrame, text));

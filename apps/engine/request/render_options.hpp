@@ -30,13 +30,6 @@ class SceneKeeper;
 /// Picture size of render and info without --size.
 inline constexpr PictureSize kRenderSize{1280, 720};
 
-/// Options of loading without flags: what importers make is kept.
-[[nodiscard]] inline LoadOptions usual_load() {
-    LoadOptions load;
-    load.import_cache = true;
-    return load;
-}
-
 /// Values of the flags of parts, as given: names, numbers or patterns.
 struct PartFlags {
     std::vector<std::string> only, hide, ghost, highlight;
@@ -47,7 +40,11 @@ struct PartFlags {
 /// The model, and how it is read.
 struct ModelRequest {
     std::string scene;  ///< a file, "-" for standard input, or a built-in scene
-    LoadOptions load = usual_load();
+    LoadOptions load = [] {
+        LoadOptions usual;
+        usual.import_cache = true;
+        return usual;
+    }();
     bool detail_given = false;                              ///< load.detail_px counts; otherwise it follows from the view
     std::shared_ptr<const std::vector<std::byte>> input{};  ///< of standard input, once it was read
     SceneKeeper* keeper = nullptr;                          ///< loads the scene; null: load_scene()

@@ -19,6 +19,14 @@ std::string form_of(const Setting& setting) {
     return fmt::format("{}", fmt::join(setting.values.list, "|"));
 }
 
+/// A setting's value as its flag takes it.
+std::string setting_text(const Setting& setting, const Settings& settings) {
+    const double value = setting.get(settings);
+    if (setting.values.kind == SettingValues::Kind::named) return std::string(setting.values.names[static_cast<std::size_t>(value)]);
+    if (const std::string_view word = setting.values.word(value); !word.empty()) return std::string(word);
+    return fmt::format("{}", static_cast<float>(value / setting.values.unit));
+}
+
 /// The help, with the range and the default.
 std::string help_of(const Setting& setting, const Settings& defaults) {
     std::string help(setting.help);
@@ -63,13 +71,6 @@ Result<void> read_setting(Settings& settings, std::string_view name, const std::
         return {};
     }
     return fail(ErrorCode::usage, fmt::format("unknown setting '{}'", name));
-}
-
-std::string setting_text(const Setting& setting, const Settings& settings) {
-    const double value = setting.get(settings);
-    if (setting.values.kind == SettingValues::Kind::named) return std::string(setting.values.names[static_cast<std::size_t>(value)]);
-    if (const std::string_view word = setting.values.word(value); !word.empty()) return std::string(word);
-    return fmt::format("{}", static_cast<float>(value / setting.values.unit));
 }
 
 void add_setting_flags(FlagGroup& group, Settings& settings, std::vector<std::string_view>& given) {

@@ -21,9 +21,6 @@ void add_setting_flags(FlagGroup& group, Settings& settings, std::vector<std::st
 /// Reads a setting by its name in C and Python. Numbers are in the setting's own unit. Fails (usage) with the name at its begin.
 [[nodiscard]] Result<void> read_setting(Settings& settings, std::string_view name, const std::string& text);
 
-/// A setting's value as its flag takes it.
-[[nodiscard]] std::string setting_text(const raster::Setting& setting, const Settings& settings);
-
 /// " --flag value" of each setting that differs, but for those without a flag.
 [[nodiscard]] std::string differing_flags(const Settings& now, const Settings& started);
 
