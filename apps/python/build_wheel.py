@@ -192,8 +192,9 @@ def make(library, folder, licences_folder=None):
                 with open(path, "rb") as file:
                     files[os.path.relpath(path, HERE)] = file.read()
     fonts = os.path.join(ROOT, "apps", "engine", "fonts")
-    with open(os.path.join(fonts, "dejavu_sans.ttf"), "rb") as file:
-        files["halflit/dejavu_sans.ttf"] = file.read()
+    for name, path in (("halflit.h", os.path.join(ROOT, "apps", "c", "include", "halflit")), ("dejavu_sans.ttf", fonts)):
+        with open(os.path.join(path, name), "rb") as file:
+            files["halflit/" + name] = file.read()
     with tempfile.TemporaryDirectory() as scratch:
         if library.endswith(".dll"):
             paths, libraries, tag = bundle_for_windows(library, scratch), {}, "py3-none-win_amd64"

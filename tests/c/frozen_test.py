@@ -11,19 +11,18 @@ import os
 import re
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "apps", "python"))
-from declarations import declarations  # noqa: E402
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "apps", "python", "halflit"))
+from _header import declarations  # noqa: E402
 
 
 def parsed(path):
     """(struct -> members, constant -> number, function -> declaration) of a header."""
     with open(path, encoding="utf-8") as file:
-        scope = {}
         text = re.sub(r" *//[^\n]*", "", file.read())
-    exec(declarations(text), scope)  # noqa: S102
+    structs, constants, functions = declarations(text)
     callbacks = {re.search(r"\(\*(\w+)\)", line).group(1): " ".join(line.split()) for line in re.findall(r"typedef [^;{]*\(\*\w+\)[^;]*;", text)}
-    functions = {re.search(r"(\w+)\(", line).group(1): line for line in scope["FUNCTIONS"].strip().splitlines()}
-    return {name: members(text) for name, text in scope["STRUCTS"].items()}, scope["CONSTANTS"], {**callbacks, **functions}
+    callbacks.update((re.search(r"(\w+)\(", line).group(1), line) for line in functions)
+    return {name: members(text) for name, text in structs.items()}, constants, callbacks
 
 
 def members(text):

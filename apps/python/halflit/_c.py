@@ -14,9 +14,8 @@ import sys
 import threading
 from typing import Any, Dict, List
 
-from ._declarations import CONSTANTS as CONSTANTS
-from ._declarations import FUNCTIONS, STRUCTS
 from ._errors import CancelledError, UsageError, made
+from ._header import declarations, header_text
 from ._threads import is_for_main
 from ._values import real, shown, whole
 
@@ -97,8 +96,9 @@ def _members(text: str, structs: Dict[Any, Any]) -> List[Any]:
     return fields
 
 
+_structs, CONSTANTS, FUNCTIONS = declarations(header_text())
 STRUCT: Dict[Any, Any] = {}
-for _name, _text in STRUCTS.items():
+for _name, _text in _structs.items():
     STRUCT[_name] = type(_name, (Struct,), {"_fields_": _members(_text, STRUCT)})
     STRUCT[_name]._kinds = dict(STRUCT[_name]._fields_)
 
@@ -158,7 +158,7 @@ def _load() -> Any:
             library = ctypes.CDLL(path)
         except OSError as error:
             raise ImportError(f"halflit: cannot load its library: {error}; HALFLIT_LIBRARY may name another file") from None
-        for declaration in FUNCTIONS.strip().splitlines():
+        for declaration in FUNCTIONS:
             result, name, arguments = _groups(r"(.*?)(\w+)\((.*)\);", declaration)
             try:
                 function = getattr(library, name)
