@@ -171,7 +171,6 @@ inline constexpr Setting kSettings[] = {
      [](const Settings& from) { return static_cast<double>(from.place); }, \
      [](Settings& to, double value) { set_number(to.place, value); }},
 #include "raster/settings_table.def"
-#undef HALFLIT_SETTING
 };
 
 }  // namespace halflit::raster

@@ -46,10 +46,7 @@ inline constexpr MaterialNumber kMaterialNumbers[] = {
      gltf,                                                                  \
      [](const Material& from, float* to) { get_numbers(from.member, to); }, \
      [](Material& to, const float* from) { set_numbers(to.member, from); }},
-#define HALFLIT_TEXTURE(...)
 #include "shading/material_properties.def"
-#undef HALFLIT_NUMBER
-#undef HALFLIT_TEXTURE
 };
 inline constexpr std::size_t kMaterialNumberCount = std::size(kMaterialNumbers);
 
@@ -85,20 +82,14 @@ struct TextureSlotInfo {
 };
 
 inline constexpr TextureSlotInfo kTextureSlotInfos[] = {
-#define HALFLIT_NUMBER(...)
 #define HALFLIT_TEXTURE(slot, space, rule, stage, gltf) {#slot, ColorSpace::space, MipRule::rule, stage, gltf},
 #include "shading/material_properties.def"
-#undef HALFLIT_NUMBER
-#undef HALFLIT_TEXTURE
 };
 static_assert(std::size(kTextureSlotInfos) == kTextureSlots);
 
 inline constexpr TextureSlot kAllTextureSlots[] = {
-#define HALFLIT_NUMBER(...)
 #define HALFLIT_TEXTURE(slot, ...) TextureSlot::slot,
 #include "shading/material_properties.def"
-#undef HALFLIT_NUMBER
-#undef HALFLIT_TEXTURE
 };
 static_assert([] {
     for (int i = 0; i < kTextureSlots; ++i)

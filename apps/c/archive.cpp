@@ -157,8 +157,9 @@ void all(Io& io, Values&... values) {
 
 template <class Io>
 void visit(Io& io, Light& l) {
-    all(io, l.type, l.color_linear, l.position_ws, l.direction_ws, l.range, l.source_radius, l.inner_cone_rad, l.outer_cone_rad);
-    all(io, l.cone_power, l.shadow_radius);
+    visit(io, l.type);
+#define HALFLIT_LIGHT(member, ...) visit(io, l.member);
+#include "shading/light_members.def"
 }
 template <class Io>
 void visit(Io& io, Instance& i) {
@@ -188,12 +189,12 @@ void visit(Io& io, Material& m) {
 #define HALFLIT_NUMBER(member, ...) visit(io, m.member);
 #define HALFLIT_TEXTURE(slot, ...) visit(io, m.textures[TextureSlot::slot]);
 #include "shading/material_properties.def"
-#undef HALFLIT_NUMBER
-#undef HALFLIT_TEXTURE
 }
 template <class Io>
 void visit(Io& io, Camera& c) {
-    all(io, c.name, c.world_from_camera, c.orthographic, c.fov_y_rad, c.aspect, c.half_height, c.half_width, c.near_z, c.far_z);
+    all(io, c.name, c.world_from_camera);
+#define HALFLIT_CAMERA(member, ...) visit(io, c.member);
+#include "raster/camera_members.def"
     bool has_sides = c.sides.has_value();
     ViewSides sides = c.sides.value_or(ViewSides{});
     all(io, has_sides, sides);

@@ -67,13 +67,8 @@ halflit_camera to_c(const CallersCamera& given) {
     camera.size = sizeof camera;
     camera.name = from.name.c_str();
     put(from.world_from_camera, camera.world_from_camera);
-    camera.orthographic = from.orthographic;
-    camera.fov_y_rad = from.fov_y_rad;
-    camera.aspect = from.aspect;
-    camera.half_height = from.half_height;
-    camera.half_width = from.half_width;
-    camera.near_z = from.near_z;
-    camera.far_z = from.far_z;
+#define HALFLIT_CAMERA(member, ...) camera.member = from.member;
+#include "raster/camera_members.def"
     if (from.sides) {
         const float sides[] = {from.sides->left, from.sides->right, from.sides->bottom, from.sides->top};
         std::copy_n(sides, 4, camera.sides);
@@ -87,13 +82,8 @@ Result<CallersCamera> camera(const halflit_camera* given) {
     if (!read) return tl::unexpected<Error>(read.error());
     Camera camera;
     camera.world_from_camera = mat4(read->world_from_camera);
-    camera.orthographic = read->orthographic != 0;
-    camera.fov_y_rad = read->fov_y_rad;
-    camera.aspect = read->aspect;
-    camera.half_height = read->half_height;
-    camera.half_width = read->half_width;
-    camera.near_z = read->near_z;
-    camera.far_z = read->far_z;
+#define HALFLIT_CAMERA(member, ...) camera.member = static_cast<decltype(camera.member)>(read->member);
+#include "raster/camera_members.def"
     const auto& [left, right, bottom, top] = read->sides;
     if (left != 0 || right != 0 || bottom != 0 || top != 0) camera.sides = ViewSides{left, right, bottom, top};
     return CallersCamera{camera, vec3(read->place_rest)};
@@ -110,7 +100,6 @@ halflit_settings to_c(const Settings& from) {
     settings.lobe = to_c(from.shading.lobe.value_or(Lobe{}));
 #define HALFLIT_SETTING(place, name, ...) settings.name = static_cast<decltype(settings.name)>(from.place);
 #include "raster/settings_table.def"
-#undef HALFLIT_SETTING
     return settings;
 }
 
@@ -131,7 +120,6 @@ Result<Settings> settings(const halflit_settings* given) {
     const double values[] = {
 #define HALFLIT_SETTING(place, name, ...) static_cast<double>(read->name),
 #include "raster/settings_table.def"
-#undef HALFLIT_SETTING
     };
     for (std::size_t i = 0; i < std::size(values); ++i) {
         const raster::Setting& setting = raster::kSettings[i];
@@ -149,28 +137,27 @@ Result<Settings> settings(const halflit_settings* given) {
 
 namespace {
 
-/// Members of a view that halflit_view and halflit_picture_request share.
+/// Copies the members of a view that ViewSettings, halflit_view and halflit_picture_request share.
+template <class From, class To>
+void copy_view(const From& from, To& to) {
+    to.azimuth_deg = from.azimuth_deg, to.elevation_deg = from.elevation_deg;
+    to.zoom = from.zoom, to.fov_y_deg = from.fov_y_deg;
+    to.orthographic = from.orthographic != 0, to.any_side = from.any_side != 0;
+    to.margin_x = from.margin_x, to.margin_y = from.margin_y;
+}
 template <class Struct>
 ViewSettings view_settings(const Struct& from) {
-    return {.azimuth_deg = from.azimuth_deg,
-            .elevation_deg = from.elevation_deg,
-            .zoom = from.zoom,
-            .fov_y_deg = from.fov_y_deg,
-            .orthographic = from.orthographic != 0,
-            .any_side = from.any_side != 0,
-            .margin_x = from.margin_x,
-            .margin_y = from.margin_y};
+    ViewSettings view;
+    copy_view(from, view);
+    return view;
 }
 
 }  // namespace
 
 halflit_view default_view() {
-    const ViewSettings defaults;
     halflit_view view{};
     view.size = sizeof view;
-    view.margin_x = defaults.margin_x, view.margin_y = defaults.margin_y;
-    view.azimuth_deg = defaults.azimuth_deg, view.elevation_deg = defaults.elevation_deg;
-    view.zoom = defaults.zoom, view.fov_y_deg = defaults.fov_y_deg;
+    copy_view(ViewSettings{}, view);
     return view;
 }
 
@@ -188,14 +175,7 @@ halflit_picture_request default_picture_request() {
     const PictureRequest defaults;
     halflit_picture_request options{};
     options.size = sizeof options;
-    options.azimuth_deg = defaults.view.azimuth_deg;
-    options.elevation_deg = defaults.view.elevation_deg;
-    options.zoom = defaults.view.zoom;
-    options.fov_y_deg = defaults.view.fov_y_deg;
-    options.orthographic = defaults.view.orthographic;
-    options.any_side = defaults.view.any_side;
-    options.margin_x = defaults.view.margin_x;
-    options.margin_y = defaults.view.margin_y;
+    copy_view(defaults.view, options);
     options.add_lights = defaults.add_lights;
     return options;
 }

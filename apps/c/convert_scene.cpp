@@ -2,6 +2,7 @@
 #include "apps/c/convert_parts.hpp"
 #include "shading/material_properties.hpp"
 
+#include <string_view>
 #include <type_traits>
 
 namespace halflit::c {
@@ -149,8 +150,6 @@ halflit_material to_c(const Material& from) {
 #define HALFLIT_NUMBER(member, ...) shading::get_numbers(from.member, first(material.member));
 #define HALFLIT_TEXTURE(slot, ...) material.slot##_texture = to_c(from.textures[TextureSlot::slot]);
 #include "shading/material_properties.def"
-#undef HALFLIT_NUMBER
-#undef HALFLIT_TEXTURE
     return material;
 }
 
@@ -175,27 +174,17 @@ Result<Material> material(const halflit_material* given) {
 #define HALFLIT_TEXTURE(slot, ...) \
     material.textures[TextureSlot::slot] = texture_use(read->slot##_texture, "a value of " #slot "_texture", members);
 #include "shading/material_properties.def"
-#undef HALFLIT_NUMBER
-#undef HALFLIT_TEXTURE
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
     if (auto ok = check_lobe(material.lobe); !ok) return fail(ErrorCode::usage, "halflit_material: lobe: " + ok.error().message);
     return material;
 }
 
 halflit_light to_c(const CallersLight& given) {
-    const Light& from = given.light;
     halflit_light light{};
     light.size = sizeof light;
-    light.type = static_cast<std::int32_t>(from.type);
-    put(from.color_linear, light.color);
-    put(from.position_ws, light.position);
-    put(from.direction_ws, light.direction);
-    light.range = from.range;
-    light.source_radius = from.source_radius;
-    light.shadow_radius = from.shadow_radius;
-    light.inner_cone_rad = from.inner_cone_rad;
-    light.outer_cone_rad = from.outer_cone_rad;
-    light.cone_power = from.cone_power;
+    light.type = static_cast<std::int32_t>(given.light.type);
+#define HALFLIT_LIGHT(member, name, ...) shading::get_numbers(given.light.member, first(light.name));
+#include "shading/light_members.def"
     put(given.rest, light.position_rest);
     return light;
 }
@@ -206,21 +195,12 @@ Result<CallersLight> light(const halflit_light* given) {
     Light light;
     Members members("halflit_light");
     members.read(read->type, LightType::spot, "type", light.type);
-    members.finite("color", read->color);
-    members.finite("position", read->position, read->position_rest);
-    members.finite("direction", read->direction);
-    members.finite("a cone angle or cone_power", read->inner_cone_rad, read->outer_cone_rad, read->cone_power);
-    members.finite("source_radius or shadow_radius", read->source_radius, read->shadow_radius);
+#define HALFLIT_LIGHT(member, name, having, quantity, low, high)                            \
+    if constexpr (std::string_view(#high) != "kEndless") members.finite(#name, read->name); \
+    shading::set_numbers(light.member, first(read->name));
+#include "shading/light_members.def"
+    members.finite("position", read->position_rest);
     if (!members.result()) return tl::unexpected<Error>(members.result().error());
-    light.color_linear = vec3(read->color);
-    light.position_ws = vec3(read->position);
-    light.direction_ws = vec3(read->direction);
-    light.range = read->range;
-    light.source_radius = read->source_radius;
-    light.shadow_radius = read->shadow_radius;
-    light.inner_cone_rad = read->inner_cone_rad;
-    light.outer_cone_rad = read->outer_cone_rad;
-    light.cone_power = read->cone_power;
     return CallersLight{light, vec3(read->position_rest)};
 }
 

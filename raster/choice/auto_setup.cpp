@@ -184,16 +184,8 @@ raster::CompletedLight raster::completed_light(const Scene& scene, const Bounds&
 Settings usual_settings() {
     const FpEnvironment environment_of_host;
     Settings settings;
-    settings.samples = 4;
-    settings.tone_curve = ToneCurve::neutral;
-    settings.alpha = AlphaSpace::display;
-    settings.shading.anisotropy = 4;
-    settings.sky_shadows = kSkyShadowsAuto;
-    settings.contact_shadow = 0.85f;
-    settings.shadow_softness_deg = 3.0f;
-    settings.point_size = 0.0f;
-    settings.edl = EyeDomeLighting::automatic;
-    settings.edge_contrast = true;
+#define HALFLIT_USUAL(place, value) settings.place = value;
+#include "raster/settings_table.def"
     settings.background_linear = raster::suited_background({});
     return settings;
 }

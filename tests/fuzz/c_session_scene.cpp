@@ -32,8 +32,6 @@ Sized<halflit_material> Session::material() {
 #define HALFLIT_TEXTURE(slot, ...) \
     if (in_.one_in(4)) material.set(&halflit_material::slot##_texture, texture_use());
 #include "shading/material_properties.def"
-#undef HALFLIT_NUMBER
-#undef HALFLIT_TEXTURE
     material.set(&halflit_material::alpha_mode, choice(3));
     material.set(&halflit_material::double_sided, in_.flag());
     material.set(&halflit_material::unlit, in_.one_in(8));

@@ -16,7 +16,7 @@ import unittest.mock
 import numpy as np
 
 import halflit
-from halflit import _c, _members, _options
+from halflit import _c, _members, _options, _picture_options
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -53,8 +53,8 @@ print(scene.material(0).metalic)  # metalic
 
 
 class Header(unittest.TestCase):
-    def test_members_of_materials_are_those_of_the_table(self):
-        done = subprocess.run([sys.executable, os.path.join(APPS, "c", "members.py"), "--check"], capture_output=True, text=True)
+    def test_members_are_those_of_the_tables(self):
+        done = subprocess.run([sys.executable, os.path.join(APPS, "c", "tables.py"), "--check"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_structs_have_the_sizes_of_the_library(self):
@@ -85,7 +85,35 @@ class Header(unittest.TestCase):
         ):
             self.assertEqual(set(kind._members()) - {"matrix", "world_from_camera"}, set(keywords.__annotations__), kind)
         for kind in (halflit.Material, halflit.Light, halflit.Camera, halflit.Lobe, halflit.TextureUse):
-            self.assertEqual(set(kind._members()) - {"matrix", "sides", "world_from_camera"}, set(kind.__annotations__), kind)
+            self.assertEqual(set(kind._members()) - {"matrix", "sides", "world_from_camera"}, {name for name in kind.__annotations__ if name[0] != "_"}, kind)
+
+    def test_defaults_are_those_that_are_told(self):
+        # tables.py reads them in the C++ headers; here they are those of the compiled library.
+        def told(kind):
+            entries = re.findall(r"^ {8}(\w+): (.*(?:\n {12}.*)*)", kind.__doc__, re.M)
+            return {name: re.search(r"\(([^()]*)\)$", text) for name, text in entries}
+
+        def value(text):
+            return eval(text.replace("MiB", "* 2**20"), {"pi": np.pi}) if re.search(r"\d|True|False|None|\bpi\b", text) else text  # noqa: S307
+
+        settings = _options.settings_dict(halflit.Scene.demo().setup(8)._settings)
+        settings = {keyword: settings[member] for keyword, (member, _) in _options.SETTINGS.items()}
+        for kind, values in (
+            (_picture_options.PictureOptions, settings),
+            *((kind, kind().to_dict()) for kind in (halflit.Material, halflit.Light, halflit.TextureUse)),
+            (halflit.Camera, {**halflit.Camera().to_dict(), "sides": None}),
+        ):
+            checked = 0
+            for name, found in told(kind).items():
+                if found is None or isinstance(values.get(name, {}), dict) or found[1] in ("the identity", '""') or name == "metallic":
+                    continue
+                checked += 1
+                wanted = value(found[1])
+                if isinstance(wanted, (str, type(None))):
+                    self.assertEqual(wanted, values[name], name)
+                else:
+                    np.testing.assert_allclose(np.float64(values[name]), np.float64(wanted), rtol=1e-6, err_msg=name)
+            self.assertGreater(checked, 7, kind)
 
     def test_public_names_are_a_literal_list(self):
         # Type checkers read the file without running it.

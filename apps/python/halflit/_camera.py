@@ -24,24 +24,25 @@ class Camera(Record):
     Members:
         name: of a camera of a file ("")
         matrix: world_from_camera, 4 x 4, rigid (the identity)
-        orthographic: else perspective (False)
-        fov_y_rad: perspective: full vertical angle, 0 to pi (pi / 4)
-        aspect: perspective: width / height that the view is made for; 0: that of the picture (0)
-        half_height: orthographic: half the view's height, world units (1)
-        half_width: orthographic: half its width; 0: from the picture's aspect (0)
-        near_z: what is nearer is not drawn, world units; perspective: 0: chosen by the scene, for each frame (0)
-        far_z: what is farther is not drawn; 0: no limit (0)
         sides: left, right, bottom, top of the picture: tangents of the angles from the axis, or (orthographic) distances from it, in
             place of fov_y_rad, aspect, half_height and half_width, whatever the picture's aspect; None: none (None)
+        far_z: what is farther is not drawn; 0: no limit (0)
+        orthographic: parallel rays; otherwise perspective (False)
+        fov_y_rad: perspective: full vertical angle, in (0, pi) (pi / 4)
+        aspect: perspective: width / height that the view is made for; 0: that of the picture (0)
+        half_height: orthographic: half the height of the view, world units (1)
+        half_width: orthographic: half its width; 0: from the picture's aspect (0)
+        near_z: distance along -z, world units, from which on things are drawn; perspective: 0: chosen by the scene (0)
     """
 
     _kind, _truths = "camera", frozenset({"orthographic"})
+    # Made by apps/c/tables.py of raster/camera_members.def.
     _ranges = {
         "fov_y_rad": (1e-6, math.pi - 1e-6),
+        "aspect": (0.0, math.inf),
         "half_height": (1e-30, math.inf),
-        **dict.fromkeys(("aspect", "half_width"), (0.0, math.inf)),
+        "half_width": (0.0, math.inf),
     }
-    name: str
     orthographic: bool
     fov_y_rad: float
     aspect: float
@@ -49,6 +50,8 @@ class Camera(Record):
     half_width: float
     near_z: float
     far_z: float
+    # Other members.
+    name: str
 
     def __init__(self, matrix: Any = None, **members: Unpack[CameraMembers]) -> None:
         super().__init__(**members)

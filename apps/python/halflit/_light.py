@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Iterable, Optional, cast
+from typing import Any, Dict, Iterable, Optional
 
 from ._errors import UsageError
 from ._lazy import np  # noqa: F401  (in annotations)
@@ -12,12 +12,8 @@ from ._types import Color, LightType, Point, Unpack
 from ._values import reals, shown
 
 
-#: Members that not all lights have -> the types that do.
-_TYPES = {
-    **dict.fromkeys(("position", "range", "source_radius"), {"point", "spot"}),
-    "direction": {"directional", "spot"},
-    **dict.fromkeys(("inner_cone_rad", "outer_cone_rad", "cone_power"), {"spot"}),
-}
+#: Properties of types of lights -> the types that have them.
+_TYPES = {"placed": {"point", "spot"}, "aimed": {"directional", "spot"}, "cone": {"spot"}}
 
 
 class Light(Record):
@@ -30,21 +26,38 @@ class Light(Record):
         color: directional: irradiance / pi; point, spot: the same at distance 1 (1, 1, 1)
         position: point, spot: world space (0, 0, 0)
         direction: directional, spot: the way the light travels, of any length above 0 (0, -1, 0)
-        range: point, spot: no light beyond, world units; 0: no limit (0)
-        source_radius: point, spot: lower bound of the distance in the falloff, world units; 0: 1e-4 (0)
+        range: point, spot: no light beyond this distance, world units; 0: no limit (0)
+        source_radius: point, spot: smaller distances count as this, world units; 0: 1e-4 (0)
         inner_cone_rad: spot: full light up to this angle from the axis (0)
-        outer_cone_rad: spot: none from this angle on (pi / 4)
-        cone_power: spot: factor cos(angle from the axis) ** cone_power (0)
-        shadow_radius: size for soft shadows. Directional: angle from middle to rim, radians; others: world units (0)
+        outer_cone_rad: spot: no light from this angle on (pi / 4)
+        cone_power: spot: factor cos(angle from the axis)^cone_power, 0 to 1e5 (0)
+        shadow_radius: Size of the source, which makes its shadows soft and changes nothing else. Directional: the angle from its
+            middle to its rim, radians, up to 0.7 (the sun's is 0.00465). Point, spot: radius of a ball, world units. 0: a point,
+            with sharp shadows. (0)
     """
 
     _kind, _choices = "light", {"type": "LIGHT"}
-    _colors = {"color": cast(Optional[float], None)}
-    _ranges = {
-        **dict.fromkeys(("range", "source_radius", "cone_power", "shadow_radius"), (0.0, math.inf)),
-        **dict.fromkeys(("inner_cone_rad", "outer_cone_rad"), (0.0, math.pi)),
+    # Made by apps/c/tables.py of shading/light_members.def.
+    _having = {
+        "position": "placed",
+        "direction": "aimed",
+        "range": "placed",
+        "source_radius": "placed",
+        "inner_cone_rad": "cone",
+        "outer_cone_rad": "cone",
+        "cone_power": "cone",
     }
-    type: LightType
+    _colors: Dict[str, Optional[float]] = {
+        "color": None,
+    }
+    _ranges = {
+        "range": (0.0, math.inf),
+        "source_radius": (0.0, math.inf),
+        "inner_cone_rad": (0.0, math.pi),
+        "outer_cone_rad": (0.0, math.pi),
+        "cone_power": (0.0, math.inf),
+        "shadow_radius": (0.0, math.inf),
+    }
     color: Color
     position: Point
     direction: Point
@@ -54,6 +67,8 @@ class Light(Record):
     outer_cone_rad: float
     cone_power: float
     shadow_radius: float
+    # Other members.
+    type: LightType
 
     def __init__(self, type: LightType = "directional", **members: Unpack[LightKeywords]) -> None:
         super().__init__(type=type, **members)
@@ -64,7 +79,7 @@ class Light(Record):
         plain: Any = None
         names = set(given) - {"type"}
         for name in () if len(names) + 1 == len(self._members()) else sorted(names):  # all: of to_dict(), as a file has them
-            if name in _TYPES and self.type not in _TYPES[name]:
+            if name in self._having and self.type not in _TYPES[self._having[name]]:
                 plain = plain or Light()
                 if getattr(self, name) != getattr(plain, name):
                     raise UsageError(f"{name}: has no effect on a light of type {self.type}")

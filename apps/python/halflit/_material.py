@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Dict, Tuple, Union, cast
+from typing import Any, Dict, Optional, Tuple, Union, cast
 
 from . import _c
 from ._lazy import np  # noqa: F401  (in annotations)
@@ -113,8 +113,8 @@ class Material(Record):
         own_lobe: render(lobe=...) does not replace this material's lobe (False)
         lobe: of diffuse light (lambert)
         shadow_catcher: invisible but for the shadows on it (False)
-        base_color: linear, in [0, 1]; the fourth number is alpha (1, 1, 1, 1)
         metallic: in [0, 1] (0; 1 with a metallic_roughness_texture)
+        base_color: linear, in [0, 1]; the fourth number is alpha (1, 1, 1, 1)
         roughness: in [0, 1] (1)
         dielectric_reflectance: F0 of dielectrics: reflectance at normal incidence where not metallic, in [0, 1] (0.04)
         emissive: light of its own, linear, from 0 (0, 0, 0)
@@ -166,8 +166,8 @@ class Material(Record):
     _truths = frozenset({"double_sided", "unlit", "own_lobe", "shadow_catcher"})
     _nested = {"halflit_lobe": Lobe, "halflit_texture_use": TextureUse}
     _metallic_given = False
-    # Ranges and members: written by apps/c/members.py.
-    _colors = {
+    # Made by apps/c/tables.py of shading/material_properties.def.
+    _colors: Dict[str, Optional[float]] = {
         "base_color": 1.0,
         "emissive": None,
         "specular_color": math.inf,

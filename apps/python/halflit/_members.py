@@ -1,5 +1,4 @@
-"""Members of materials, lights, cameras and uses of textures as dicts and as keywords, for type checkers. Those that have a class of the
-package are written by apps/c/members.py, from its annotations."""
+"""Members of materials, lights, cameras and uses of textures as dicts and as keywords, for type checkers."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Optional, Tuple, TypedDict
@@ -40,6 +39,7 @@ class TextureUseMembers(TextureUseKeywords, total=False):
 class LightKeywords(TypedDict, total=False):
     """See halflit.Light."""
 
+    # Made by apps/c/tables.py: light
     color: Color
     position: Point
     direction: Point
@@ -61,6 +61,8 @@ class CameraMembers(TypedDict, total=False):
     """See halflit.Camera; without its matrix."""
 
     name: str
+    sides: Optional[Tuple[float, float, float, float]]
+    # Made by apps/c/tables.py: camera
     orthographic: bool
     fov_y_rad: float
     aspect: float
@@ -68,12 +70,19 @@ class CameraMembers(TypedDict, total=False):
     half_width: float
     near_z: float
     far_z: float
-    sides: Optional[Tuple[float, float, float, float]]
 
 
 class MaterialMembers(TypedDict, total=False):
     """See halflit.Material."""
 
+    name: str
+    alpha_mode: AlphaMode
+    double_sided: bool
+    unlit: bool
+    own_lobe: bool
+    lobe: LobeOf
+    shadow_catcher: bool
+    # Made by apps/c/tables.py: material
     base_color: Color
     metallic: float
     roughness: float
@@ -121,10 +130,3 @@ class MaterialMembers(TypedDict, total=False):
     diffuse_transmission_color: Color
     diffuse_transmission_texture: TextureOf
     diffuse_transmission_color_texture: TextureOf
-    name: str
-    alpha_mode: AlphaMode
-    double_sided: bool
-    unlit: bool
-    own_lobe: bool
-    lobe: LobeOf
-    shadow_catcher: bool

@@ -42,7 +42,7 @@ WHOLE_SCENE = ("azimuth", "elevation", "zoom", "fov", "orthographic", "view", "f
 VIEW = ("camera", *WHOLE_SCENE, "setup", "exposure", "ev", "ambient", "studio", "studio_turn")
 PIXELS = ("dtype", "premultiplied", "out", "aovs", "region")
 EXECUTION = ("threads", "isa", "tile_size", "time_limit", "memory_limit", "progress", "cancelled")
-#: Keyword -> (member of halflit_settings, type or enumeration). Written by apps/c/members.py.
+#: Keyword -> (member of halflit_settings, type or enumeration). Made by apps/c/tables.py of raster/settings_table.def.
 SETTINGS: Dict[str, Tuple[str, str]] = {
     "max_error": ("max_error_codes", "float"),
     "environment_tolerance": ("environment_tolerance", "float"),

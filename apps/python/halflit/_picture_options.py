@@ -74,7 +74,7 @@ class PictureOptions(ViewOptions, total=False):
             "none", "reinhard", "aces", "neutral" (neutral)
         point_size: Size of points, pixels, 1/16 to 256; rounded to 1/256. From 3 on they are round, below that square. 0: the sizes
             that close the surface that they lie on, by their distances in the picture: 2 at least, a 25th of the picture's shorter
-            side at most. (0.0)
+            side at most. (0)
         line_width: width of lines, likewise (1.5)
         accuracy: arithmetic; exact if there is an error budget: "reference", "exact" (exact)
         texture_detail: upper limit of the texture filters: "full", "bilinear", "nearest" (full)
@@ -99,7 +99,7 @@ class PictureOptions(ViewOptions, total=False):
         emission_scale: factor on the light that all surfaces emit (not on colours of unlit materials) (1)
         edges: Lines along the edges of all that is drawn but shadow catchers, over the finished picture. Surfaces of triangles hide
             them, glass does not. A line that touches a surface is in front of it. Vertices at one position count as one, because
-            files split vertices.: "none", "feature", "silhouette", "all" (none)
+            files split vertices: "none", "feature", "silhouette", "all" (none)
         hidden_edges: edges behind surfaces: "none", "dashed" (none)
         edge_angle_deg: between the normals of two triangles, from which on their edge is a line: 0 to 180 (30)
         edge_width: of the lines, pixels, 1/4 to 64; below 1 they are paler instead (1.5)
@@ -111,9 +111,9 @@ class PictureOptions(ViewOptions, total=False):
         alpha: of codes on transparent backgrounds; floats have the share of light: "linear", "display" (display)
         shadow_softness_deg: Angle from the middle of a directional light without a shadow_radius to its edge, as the penumbras of
             its shadows show it, by a wider filter in one map: cheap, and an approximation. Penumbras are at most 24 texels wide.
-            Degrees, 0 to 10; 0: all edges are sharp. (3.0)
+            Degrees, 0 to 10; 0: all edges are sharp. (3)
         edl: Shading by the depths of the picture: a surface is darker where its neighbours are nearer to the viewer. Transparent
-            surfaces count as not there.: "off", "auto", "on" (auto)
+            surfaces count as not there: "off", "auto", "on" (auto)
         edl_strength: of that shading, 0 to 16 (1)
         edge_contrast: black lines on surfaces of dark materials are light grey instead (True)
 
@@ -137,7 +137,7 @@ class PictureOptions(ViewOptions, total=False):
     out: Array
     aovs: Union[Sequence[Aov], Aov, Literal["all"]]
     lobe: LobeOf
-    # Settings: written by apps/c/members.py.
+    # Made by apps/c/tables.py of raster/settings_table.def.
     max_error: float
     environment_tolerance: float
     shadow_memory_limit: int

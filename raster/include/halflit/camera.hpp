@@ -35,17 +35,17 @@ struct Intrinsics {
     double first_pixel = 0;
 };
 
-/// A view of the world. Distances are world units.
+/// A view of the world. Distances are world units; completed() chooses what is left to the scene.
 struct Camera {
     std::string name;                ///< for messages and choices; may be empty
     Mat4 world_from_camera;          ///< rigid: rotation and translation, as look_at() makes
-    bool orthographic = false;       ///< false: perspective
+    bool orthographic = false;       ///< parallel rays; otherwise perspective
     float fov_y_rad = 0.785398163f;  ///< perspective: full vertical angle, in (0, pi)
     float aspect = 0.0f;             ///< perspective: width / height that the view is made for; 0: that of the picture
-    float half_height = 1.0f;        ///< orthographic: half the height of the view
+    float half_height = 1.0f;        ///< orthographic: half the height of the view, world units
     float half_width = 0.0f;         ///< orthographic: half its width; 0: from the picture's aspect
-    float near_z = 0.0f;             ///< distance along -z from which on things are drawn; perspective, 0: that of completed()
-    float far_z = 0.0f;              ///< distance up to which they are drawn; one that is not above near_z: no limit
+    float near_z = 0.0f;  ///< distance along -z, world units, from which on things are drawn; perspective: 0: chosen by the scene
+    float far_z = 0.0f;   ///< distance up to which they are drawn; one that is not above near_z: no limit
     /// in place of fov_y_rad, aspect, half_height and half_width: the picture's sides, whatever its aspect, so pixels need not be square
     std::optional<ViewSides> sides{};
 

@@ -45,19 +45,19 @@ inline constexpr LightKind kLightKinds[] = {
 /// Largest shadow_radius of a directional light; larger ones count as this.
 inline constexpr float kMaxLightAngle = 0.7f;
 
-/// A source of light. Members that its type does not name are ignored.
+/// A source of light. Members that its type does not name are ignored. cone_power is [CMSC]'s.
 struct Light {
     LightType type = LightType::directional;  ///< decides which members count
-    Vec3f color_linear{1, 1, 1};              ///< directional: irradiance/pi; point and spot: the same at distance 1
-    Vec3f position_ws{0, 0, 0};               ///< point, spot
-    Vec3f direction_ws{0, -1, 0};             ///< directional, spot: the way the light travels, unit length
-    float range = 0.0f;                       ///< point, spot: zero beyond this distance; 0 means no limit
-    float source_radius = 0.0f;               ///< point, spot: smaller distances count as this; 0 means 1e-4
-    float inner_cone_rad = 0.0f;              ///< spot: full intensity up to this angle from the axis
-    float outer_cone_rad = 0.785398163f;      ///< spot: zero from this angle on, pi/4 by default
-    float cone_power = 0.0f;                  ///< spot: factor cos(angle to the axis)^cone_power, [CMSC]; 0 to 1e5; 0: the cone alone
+    Vec3f color_linear{1, 1, 1};              ///< directional: irradiance / pi; point, spot: the same at distance 1
+    Vec3f position_ws{0, 0, 0};               ///< point, spot: world space
+    Vec3f direction_ws{0, -1, 0};             ///< directional, spot: the way the light travels, of any length above 0
+    float range = 0.0f;                       ///< point, spot: no light beyond this distance, world units; 0: no limit
+    float source_radius = 0.0f;               ///< point, spot: smaller distances count as this, world units; 0: 1e-4
+    float inner_cone_rad = 0.0f;              ///< spot: full light up to this angle from the axis
+    float outer_cone_rad = 0.785398163f;      ///< spot: no light from this angle on
+    float cone_power = 0.0f;                  ///< spot: factor cos(angle from the axis)^cone_power, 0 to 1e5
     /// Size of the source, which makes its shadows soft and changes nothing else. Directional: the angle from its middle to its rim,
-    /// radians, up to kMaxLightAngle (the sun's is 0.00465). Point, spot: radius of a ball, world units. 0: a point, with sharp shadows.
+    /// radians, up to 0.7 (the sun's is 0.00465). Point, spot: radius of a ball, world units. 0: a point, with sharp shadows.
     float shadow_radius = 0.0f;
     friend bool operator==(const Light&, const Light&) = default;
 };

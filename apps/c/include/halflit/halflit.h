@@ -262,7 +262,7 @@ typedef struct halflit_material {
     int32_t own_lobe;        ///< halflit_settings.override_lobe does not replace this material's lobe
     int32_t shadow_catcher;  ///< invisible but for the shadows on it, which are black with the hidden share as alpha
     halflit_lobe lobe;       ///< of diffuse light
-    // From here on written by apps/c/members.py.
+    // Made by apps/c/tables.py of shading/material_properties.def.
     /// linear, in [0, 1]; the fourth number is alpha (1, 1, 1, 1)
     float base_color[4];
     /// in [0, 1] (1)
@@ -357,7 +357,8 @@ typedef struct halflit_material {
     halflit_texture_use diffuse_transmission_texture;
     /// sRGB
     halflit_texture_use diffuse_transmission_color_texture;
-    int32_t reserved[2];  ///< 0
+    /// 0
+    int32_t reserved[2];
 } halflit_material;
 HALFLIT_C_API int32_t halflit_material_init(halflit_material* material, size_t size);
 
@@ -474,19 +475,30 @@ HALFLIT_C_API int32_t halflit_scene_add_ground(halflit_scene* scene, int32_t* in
 /// A camera is at the origin of its own space and looks along -z, with +x to the right and +y up.
 typedef struct halflit_camera {
     size_t size;
-    const char* name;               ///< from halflit_scene_get_camera, valid as long as the scene; otherwise not read
-    float world_from_camera[16];    ///< rigid: rotation and translation
-    int32_t orthographic;           ///< 0: perspective
-    float fov_y_rad;                ///< perspective: full vertical angle, 0 to pi
-    float aspect;                   ///< perspective: width / height that the view is made for; 0: that of the picture
-    float half_height, half_width;  ///< orthographic: half the view's size, world units; half_width 0: from the picture's aspect
-    float near_z;                   ///< nothing nearer is drawn; perspective: 0: chosen by the scene, for each frame
-    float far_z;                    ///< nothing farther is drawn; one that is not above near_z: no limit
-    /// left, right, bottom, top: tangents of the angles from the axis, or (orthographic) distances from it, in place of fov_y_rad, aspect,
-    /// half_height and half_width, whatever the picture's aspect; all 0: none
+    const char* name;             ///< from halflit_scene_get_camera, valid as long as the scene; otherwise not read
+    float world_from_camera[16];  ///< rigid: rotation and translation
+    // Made by apps/c/tables.py of raster/camera_members.def.
+    /// parallel rays; otherwise perspective (0)
+    int32_t orthographic;
+    /// perspective: full vertical angle, in (0, pi) (pi / 4)
+    float fov_y_rad;
+    /// perspective: width / height that the view is made for; 0: that of the picture (0)
+    float aspect;
+    /// orthographic: half the height of the view, world units (1)
+    float half_height;
+    /// orthographic: half its width; 0: from the picture's aspect (0)
+    float half_width;
+    /// distance along -z, world units, from which on things are drawn; perspective: 0: chosen by the scene (0)
+    float near_z;
+    /// distance up to which they are drawn; one that is not above near_z: no limit (0)
+    float far_z;
+    /// left, right, bottom, top: tangents of the angles from the axis, or (orthographic) distances from it, in place of fov_y_rad,
+    /// aspect, half_height and half_width, whatever the picture's aspect; all 0: none (0, 0, 0, 0)
     float sides[4];
+    /// 0
     int32_t reserved;
-    double place_rest[3];  ///< added to the place in world_from_camera, where float32 is too coarse (0, 0, 0)
+    /// added to the place in world_from_camera, where float32 is too coarse (0, 0, 0)
+    double place_rest[3];
 } halflit_camera;
 HALFLIT_C_API int32_t halflit_camera_init(halflit_camera* camera, size_t size);
 
@@ -542,16 +554,30 @@ enum { HALFLIT_LIGHT_DIRECTIONAL = 0, HALFLIT_LIGHT_POINT = 1, HALFLIT_LIGHT_SPO
 /// white, directional, straight down.
 typedef struct halflit_light {
     size_t size;
-    int32_t type;                          ///< HALFLIT_LIGHT
-    float color[3];                        ///< directional: irradiance / pi; point, spot: the same at distance 1
-    float position[3];                     ///< point, spot: world space
-    float direction[3];                    ///< directional, spot: the way the light travels, of any length above 0
-    float range;                           ///< point, spot: no light beyond; 0: no limit
-    float source_radius;                   ///< point, spot: smaller distances count as this; 0: 1e-4
-    float inner_cone_rad, outer_cone_rad;  ///< spot: full light up to the first angle from the axis, none from the second on
-    float cone_power;                      ///< spot: factor cos(angle from the axis)^cone_power, 0 to 1e5
-    float shadow_radius;                   ///< size for soft shadows. Directional: angle from middle to rim, radians; others: world units
-    double position_rest[3];               ///< added to position, where float32 is too coarse
+    int32_t type;  ///< HALFLIT_LIGHT
+    // Made by apps/c/tables.py of shading/light_members.def.
+    /// directional: irradiance / pi; point, spot: the same at distance 1 (1, 1, 1)
+    float color[3];
+    /// point, spot: world space (0, 0, 0)
+    float position[3];
+    /// directional, spot: the way the light travels, of any length above 0 (0, -1, 0)
+    float direction[3];
+    /// point, spot: no light beyond this distance, world units; 0: no limit (0)
+    float range;
+    /// point, spot: smaller distances count as this, world units; 0: 1e-4 (0)
+    float source_radius;
+    /// spot: full light up to this angle from the axis (0)
+    float inner_cone_rad;
+    /// spot: no light from this angle on (pi / 4)
+    float outer_cone_rad;
+    /// spot: factor cos(angle from the axis)^cone_power, 0 to 1e5 (0)
+    float cone_power;
+    /// Size of the source, which makes its shadows soft and changes nothing else. Directional: the angle from its middle to its
+    /// rim, radians, up to 0.7 (the sun's is 0.00465). Point, spot: radius of a ball, world units. 0: a point, with sharp shadows.
+    /// (0)
+    float shadow_radius;
+    /// added to position, where float32 is too coarse (0, 0, 0)
+    double position_rest[3];
 } halflit_light;
 HALFLIT_C_API int32_t halflit_light_init(halflit_light* light, size_t size);
 
@@ -626,7 +652,7 @@ typedef struct halflit_region {
 /// Everything besides scene, camera and size that decides a pixel. Defaults in parentheses.
 typedef struct halflit_settings {
     size_t size;
-    // Settings of eight bytes: written by apps/c/members.py.
+    // Made by apps/c/tables.py of raster/settings_table.def: eight bytes each.
     /// largest difference from the exact picture in 8-bit codes: the cheapest way that is proven to keep it, for light once a
     /// pixel, full texture filters and exact arithmetic alone; 0: none (0)
     double max_error_codes;
@@ -639,7 +665,7 @@ typedef struct halflit_settings {
     int32_t background_environment;  ///< show the environment behind the scene (0)
     int32_t override_lobe;           ///< `lobe` replaces the lobe of materials without own_lobe (0)
     halflit_lobe lobe;               ///< (Lambert)
-    // Settings of four bytes: written by apps/c/members.py.
+    // Made by apps/c/tables.py of raster/settings_table.def: four bytes each.
     /// per pixel: 1, 4, 8 or 16 (1)
     int32_t samples;
     /// factor on all light, above 0 (1)
@@ -718,7 +744,8 @@ typedef struct halflit_settings {
     float edl_strength;
     /// black lines on surfaces of dark materials are light grey instead (0)
     int32_t edge_contrast;
-    int32_t reserved[1];  ///< 0
+    /// 0
+    int32_t reserved[1];
 } halflit_settings;
 HALFLIT_C_API int32_t halflit_settings_init(halflit_settings* settings, size_t size);
 /// Sets the member of that name to a value as the program takes it: a number, a word such as "auto" or "aces", "on" or "off". The message
