@@ -1,12 +1,12 @@
 // The part of the module for the npm package: reports, descriptions, the engine's calls, and the program's flags.
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/answers/scene_description.hpp"
+#include "apps/engine/basics/hash_text.hpp"
 #include "apps/engine/calls/call_text.hpp"
 #include "apps/web/flag_table.hpp"
 #include "apps/web/module.hpp"
 
 #include <emscripten/emscripten.h>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <optional>
@@ -58,7 +58,7 @@ EMSCRIPTEN_KEEPALIVE int halflit_call(Handle* handle, const char* name, const ch
         for (engine::RenderOptions* const options : call->scenes) options->execution.threads = 1;
         auto answer = engine::answer_call(*call, nullptr);
         if (!answer) return tl::unexpected(answer.error());
-        const std::string hash = answer->picture ? fmt::format("{:016x}", pixel_hash(answer->picture->rgba8)) : "";
+        const std::string hash = answer->picture ? engine::hash_text(answer->picture->rgba8) : "";
         handle->text = engine::to_text(
             {{"good", answer->good}, {"notes", answer->notes}, {"hash", hash}, {"report", std::move(answer->report)}}, true);
         of_call = std::move(answer->picture);

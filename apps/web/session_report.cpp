@@ -1,5 +1,6 @@
 #include "apps/web/session_report.hpp"
 
+#include "apps/engine/basics/hash_text.hpp"
 #include "apps/engine/request/plan_names.hpp"
 #include "apps/viewer/orbit_camera.hpp"
 #include "halflit/version.hpp"
@@ -85,11 +86,11 @@ std::string picture_report(const engine::RenderJob& job, const RenderReport& rep
     int bands = 0;
     for (const EnvironmentUse& use : report.environment) bands = std::max(bands, use.bands == 0 ? 64 : use.bands);  // a map
     return fmt::format(
-        R"({{"width":{},"height":{},"pixel_hash":"{:016x}","isa":"{}","loads":{},"render_ms":{:.2f},)"
+        R"({{"width":{},"height":{},"pixel_hash":"{}","isa":"{}","loads":{},"render_ms":{:.2f},)"
         R"("shadows_ms":{:.2f},"tiles_ms":{:.2f},"triangles":{},"lights":{},"exposure":{},"bands":{},"bound":{},"samples":{},)"
         R"("view":{},"lobes":{},"animations":{},)"
         R"("choices":{},"warnings":{}}})",
-        picture.width, picture.height, pixel_hash(picture.rgba8), isa_name(report.isa), loads, report.total_ms, report.ms.shadows,
+        picture.width, picture.height, engine::hash_text(picture.rgba8), isa_name(report.isa), loads, report.total_ms, report.ms.shadows,
         report.ms.tiles, report.triangles_submitted, job.light.all_lights().size(), number(static_cast<double>(job.settings.exposure)),
         bands, number(report.error.codes), job.settings.samples, view_of(job), own_lobes(job.scene()),
         list_of(job.source.animations,

@@ -1,6 +1,7 @@
 #include "apps/engine/answers/run_report.hpp"
 
 #include "apps/engine/answers/camera_json.hpp"
+#include "apps/engine/basics/hash_text.hpp"
 #include "apps/engine/basics/printable.hpp"
 #include "apps/engine/job/section_cuts.hpp"
 #include "apps/engine/request/plan_names.hpp"
@@ -67,7 +68,7 @@ Json report_head(std::string_view kind) {
 void add_frame(Json& report, const RenderJob& job, const RenderReport& rendered, const Image& picture) {
     report["size"] = {job.width, job.height};
     report["region"] = region_json(job.settings.region);
-    report["pixel_hash"] = fmt::format("{:016x}", pixel_hash(picture.rgba8));
+    report["pixel_hash"] = hash_text(picture.rgba8);
     report["camera"] = camera_json(job, job.camera, {job.width, job.height});
     report["isa"] = isa_name(rendered.isa);
     report["threads"] = rendered.threads;

@@ -1,6 +1,7 @@
 // halflit merge: verifies what shards have drawn by their reports, and joins it.
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/hash_text.hpp"
 #include "apps/halflit/commands/commands.hpp"
 #include "apps/halflit/farm/shard.hpp"
 #include "apps/halflit/program/messages.hpp"
@@ -170,8 +171,6 @@ std::string missing_of(const std::vector<ReportedPicture>& pictures) {
     return fmt::format("missing: {} {}{}", unit, first_of(missing), of);
 }
 
-std::string hash_of(std::span<const std::uint8_t> bytes) { return fmt::format("{:016x}", pixel_hash(bytes)); }
-
 /// The picture that was drawn; floats in rgba_linear, opaque.
 Result<Image> decode(const std::string& path, std::span<const std::byte> bytes) {
     constexpr int kAnySide = std::numeric_limits<int>::max();
@@ -201,7 +200,7 @@ public:
         if (joined_.rgba8.size() + joined_.rgba_linear.size() !=
             std::size_t{4} * static_cast<std::size_t>(joined_.width) * static_cast<std::size_t>(joined_.height))
             return fail(ErrorCode::negative_result, fmt::format("the parts are not {}x{} pixels", joined_.width, joined_.height));
-        if (!joined_.rgba8.empty()) std::printf("pixel_hash %s\n", hash_of(joined_.rgba8).c_str());
+        if (!joined_.rgba8.empty()) std::printf("pixel_hash %s\n", hash_text(joined_.rgba8).c_str());
         return encode_image(joined_, format_);
     }
 
@@ -235,7 +234,7 @@ Result<void> read_pictures(const std::vector<ReportedPicture>& pictures, const M
         const auto& [path, hash, unit] = std::tie(picture.path, picture.file_hash, picture.unit);
         const auto bytes = io::read_file(path, kMostPictureBytes);
         if (!bytes) return tl::unexpected(bytes.error());
-        if (const std::string found = hash_of({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
+        if (const std::string found = hash_text({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
             !hash.empty() && hash != found)
             return fail(ErrorCode::negative_result, fmt::format("{}: expected the file with the hash {}, found {}", path, hash, found));
         if (options.output.empty()) continue;

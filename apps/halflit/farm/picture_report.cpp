@@ -1,8 +1,8 @@
 #include "apps/halflit/farm/picture_report.hpp"
 
 #include "apps/engine/answers/run_report.hpp"
+#include "apps/engine/basics/hash_text.hpp"
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 namespace halflit::cli {
@@ -32,7 +32,7 @@ std::string picture_report(const PictureFile& file, const RenderJob& job, const 
     Json report = report_head("report");
     report["scene"] = job.source.name;
     add_place(report, file);
-    if (file.file_hash != 0) report["file_hash"] = fmt::format("{:016x}", file.file_hash);
+    if (file.file_hash != 0) report["file_hash"] = hash_text(file.file_hash);
     for (const AovFile& aov : file.beside.files) report["aov"][aov.name] = aov.path;
     if (const auto& range = file.beside.depth16) report["depth16"] = {range->least, range->most};
     add_frame(report, job, rendered, picture);

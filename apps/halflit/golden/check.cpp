@@ -1,6 +1,7 @@
 #include "apps/halflit/golden/check.hpp"
 
 #include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/hash_text.hpp"
 #include "apps/engine/basics/output_folder.hpp"
 #include "apps/engine/basics/stopwatch.hpp"
 #include "apps/engine/job/render_job.hpp"
@@ -19,8 +20,6 @@ namespace halflit::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string hash_of(const Image& picture) { return fmt::format("{:016x}", pixel_hash(picture.rgba8)); }
 
 struct DrawnScene {
     Image image;
@@ -100,7 +99,7 @@ Result<void> compare(const GoldenList& list, const Image& actual, const GoldenCh
     if (!diff) return tl::unexpected(diff.error());
     static_cast<DiffedFile&>(result) = *diff;
     if (diff->diff && diff->diff->count > 0) result.difference_picture = difference;
-    if (const std::string found = hash_of(*expected); found != result.expected_hash) {
+    if (const std::string found = hash_text(expected->rgba8); found != result.expected_hash) {
         result.status = DiffStatus::differs;
         result.message = fmt::format("{}.png has the hash {}, expected {} as in hashes.txt; halflit golden update renews both", name, found,
                                      result.expected_hash);
@@ -129,7 +128,7 @@ Result<std::vector<GoldenResult>> check_golden(const GoldenList& list, const std
                             options.max_share.value_or(scene->max_share.value_or(0.0))};
         const auto actual = draw_within_memory(list, *scene, CameraUse::as_recorded);
         if (actual) {
-            result.hash = hash_of(actual->image);
+            result.hash = hash_text(actual->image.rgba8);
             result.framed = actual->framed;
             result.kept = actual->framed && list.camera(*scene) != nullptr;
         } else {
@@ -156,7 +155,7 @@ std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<cons
             const auto drawn = draw_within_memory(list, *scene, reframe ? CameraUse::reframe : CameraUse::record);
             if (!drawn) return tl::unexpected(drawn.error());
             const Image& actual = drawn->image;
-            result.hash = hash_of(actual);
+            result.hash = hash_text(actual.rgba8);
             result.framed = drawn->framed;
             result.kept = drawn->framed && !reframe && list.camera(*scene) != nullptr;
             const auto record = [&] {
@@ -168,7 +167,7 @@ std::vector<GoldenResult> update_golden(GoldenList& list, const std::vector<cons
             std::error_code ignored;
             const bool exists = fs::exists(platform::to_path(path), ignored);
             const auto before = exists ? io::read_picture(path) : fail(ErrorCode::io, "");
-            const bool same = before && hash_of(*before) == result.hash;
+            const bool same = before && hash_text(before->rgba8) == result.hash;
             if (same && result.hash == result.expected_hash) {
                 record();
                 return {};

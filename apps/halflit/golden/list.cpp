@@ -2,6 +2,7 @@
 
 #include "apps/engine/answers/run_report.hpp"
 #include "apps/engine/basics/file_names.hpp"
+#include "apps/engine/basics/hash_text.hpp"
 #include "apps/engine/basics/output_folder.hpp"
 #include "apps/engine/job/built_in_scenes.hpp"
 #include "apps/halflit/program/messages.hpp"
@@ -9,7 +10,6 @@
 #include "apps/io/files/file_access.hpp"
 #include "apps/io/platform/files.hpp"
 #include "apps/io/platform/paths.hpp"
-#include "halflit/target.hpp"
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -256,7 +256,7 @@ Result<std::vector<std::string>> models_below(const std::string& folder) {
 std::string flags_hash(const GoldenScene& scene) {
     std::string text;
     for (const std::string& flag : scene.flags) text += flag + '\n';
-    return fmt::format("{:016x}", pixel_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+    return hash_text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 std::string GoldenList::picture(const std::string& name) const { return path_in(folder, name + ".png"); }

@@ -1,5 +1,6 @@
 #include "apps/halflit/golden/self_test.hpp"
 
+#include "apps/engine/basics/hash_text.hpp"
 #include "apps/engine/job/render_job.hpp"
 #include "apps/io/platform/process.hpp"
 #include "halflit/isa.hpp"
@@ -61,7 +62,7 @@ Result<std::string> self_test_outcome(const SelfTestScene& scene, const std::vec
             Renderer().render(*job->prepared, job->light, job->camera, job->settings, target_of(*job, image), job->execution);
         if (!drawn) return tl::unexpected(drawn.error());
         if (const std::uint64_t found = pixel_hash(image.rgba8); found != scene.expected)
-            return fmt::format("DIFFERENT expected {:016x} found {:016x} by {}", scene.expected, found, isa_name(isa));
+            return fmt::format("DIFFERENT expected {} found {} by {}", hash_text(scene.expected), hash_text(found), isa_name(isa));
     }
     return "ok";
 }
