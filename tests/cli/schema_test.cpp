@@ -115,6 +115,16 @@ TEST_CASE("schema: bench, info, diff, golden and trade have the keys that their 
     check_report("trade", contents(folder.file("trade/trade.json")));
 }
 
+TEST_CASE("schema: lobe and env have the keys that their schemas describe", "[cli][schema]") {
+    for (const std::vector<std::string>& model : {std::vector<std::string>{"lambert"}, {"sloan", "--wrap", "1"}, {"green", "--power", "0.5"}}) {
+        std::vector<std::string> arguments{"lobe", "--json"};
+        arguments.insert(arguments.begin() + 1, model.begin(), model.end());
+        check_report("lobe", output_of(arguments));
+    }
+    check_report("env", output_of({"env", "sky", "--json"}));
+    check_report("env", output_of({"env", "sky", "--bands", "3", "--json"}));
+}
+
 TEST_CASE("schema: compare has the keys that its schema describes", "[cli][schema]") {
     const TemporaryFolder folder;
     const auto compare = [&](const std::string& a, const std::string& b, int code) {

@@ -68,7 +68,7 @@ void add_projection(Json& json, const sh::Projection& projection, const sh::Lobe
 }
 
 Json json_of(const Description& d, int bands) {
-    Json json;
+    Json json = report_head("env");
     json["width"] = d.environment.width;
     json["height"] = d.environment.height;
     json["mean_radiance"] = triple(d.mean);

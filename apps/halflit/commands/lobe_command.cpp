@@ -31,7 +31,7 @@ double sample_cosine(int i) {
 Json describe(const LobeModel& model) {
     const sh::WrapLobe& lobe = model.lobe;
     const double slope = sh::slope_at_boundary(lobe);
-    Json json;
+    Json json = report_head("lobe");
     json["model"] = model.name;
     json["wrap"] = lobe.wrap;
     json["power"] = lobe.power;
