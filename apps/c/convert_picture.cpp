@@ -303,28 +303,19 @@ Target target(const halflit_target& given) {
     }
     target.premultiplied = is_premultiplied(given.format);
     target.region_alone = given.region_alone != 0;
-    target.depth = given.depth;
-    target.depth_row_bytes = given.depth_row_bytes;
-    target.normal = given.normal;
-    target.normal_row_bytes = given.normal_row_bytes;
-    target.instance = given.instance;
-    target.instance_row_bytes = given.instance_row_bytes;
-    target.triangle = given.triangle;
-    target.triangle_row_bytes = given.triangle_row_bytes;
-    target.shading_normal = given.shading_normal;
-    target.shading_normal_row_bytes = given.shading_normal_row_bytes;
-    target.albedo = given.albedo;
-    target.albedo_row_bytes = given.albedo_row_bytes;
-    target.position = given.position;
-    target.position_row_bytes = given.position_row_bytes;
-    target.lights = given.lights;
-    target.lights_row_bytes = given.lights_row_bytes;
-    target.coverage = given.coverage;
-    target.coverage_row_bytes = given.coverage_row_bytes;
-    target.barycentric = given.barycentric;
-    target.barycentric_row_bytes = given.barycentric_row_bytes;
-    target.uv = given.uv;
-    target.uv_row_bytes = given.uv_row_bytes;
+#define HALFLIT_PLANE(name) target.name = given.name, target.name##_row_bytes = given.name##_row_bytes
+    HALFLIT_PLANE(depth);
+    HALFLIT_PLANE(normal);
+    HALFLIT_PLANE(instance);
+    HALFLIT_PLANE(triangle);
+    HALFLIT_PLANE(shading_normal);
+    HALFLIT_PLANE(albedo);
+    HALFLIT_PLANE(position);
+    HALFLIT_PLANE(lights);
+    HALFLIT_PLANE(coverage);
+    HALFLIT_PLANE(barycentric);
+    HALFLIT_PLANE(uv);
+#undef HALFLIT_PLANE
     return target;
 }
 
