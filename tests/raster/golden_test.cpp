@@ -1,5 +1,6 @@
 // Hashes of small scenes made in code, in many variants, against one committed table for every instruction set, compiler and machine.
 // HALFLIT_UPDATE_GOLDEN=1 rewrites the table; look at the pictures first.
+#include "halflit/fixed_function.hpp"
 #include "halflit/renderer.hpp"
 #include "halflit/target.hpp"
 #include "shading/environment.hpp"
@@ -116,6 +117,59 @@ std::string hashes(const test::NamedScene& named, const Variant& variant) {
     return hex(pixel_hash(rgba8)) + " " + hex(pixel_hash(little_endian(linear)));
 }
 
+/// The same of a scene as fixed function draws it: codes, and reversed depths. effects: transparency, a mirror, fog, four samples.
+std::string fixed_hashes(const test::NamedScene& named, bool effects) {
+    FixedFrame frame;
+    const Vec4f &back = named.camera.world_from_camera.c[2], &up = named.camera.world_from_camera.c[1],
+                &eye = named.camera.world_from_camera.c[3];
+    frame.camera = {{eye.x, eye.y, eye.z}, {-back.x, -back.y, -back.z}, {up.x, up.y, up.z}, false, -0.8f, 0.8f, -0.45f, 0.45f, 1.0f, 100.0f};
+    frame.eye_ws = frame.camera.position_ws;
+    CodeTexture picture{7, 4, false, false, {}}, cube{4, 4, true, false, {}};
+    for (int i = 0; i < 3 * 28; ++i) picture.rgb.push_back(static_cast<std::uint8_t>(37 * i * i + 11));
+    for (int i = 0; i < 3 * 96; ++i) cube.rgb.push_back(static_cast<std::uint8_t>(53 * i * i + 5));
+    std::vector<Mesh> meshes;
+    for (const Mesh& mesh : named.scene.meshes)
+        if (mesh.splats == nullptr) meshes.push_back(mesh);
+    for (const Instance& instance : named.scene.instances) {
+        if (named.scene.meshes[static_cast<std::size_t>(instance.mesh)].splats != nullptr) return "none none";
+        FixedItem item;
+        const auto number = frame.items.size();
+        item.mesh = instance.mesh;
+        item.world_from_object = instance.world_from_object;
+        item.id = static_cast<std::uint32_t>(number + 1);
+        item.material.color = {0.9f, 0.5f + 0.1f * static_cast<float>(number % 4), 0.6f, 1.0f};
+        item.material.specular = 0.5f, item.material.shininess = 20.0f;
+        item.material.texture = static_cast<int>(number % 3) - 1;
+        item.material.generated = true;
+        for (std::size_t k = 0; k < 3; ++k) item.material.planes[k] = {k == 0 ? 1.0f : 0.2f, k == 1 ? 1.0f : 0.1f, k == 2 ? 1.0f : -0.1f, 0.3f};
+        if (effects && number % 4 == 3) item.stage = FixedStage::transparent, item.material.color.w = 0.4f;
+        item.mirrors = effects && number == 0;
+        frame.items.push_back(item);
+    }
+    std::stable_partition(frame.items.begin(), frame.items.end(), [](const FixedItem& item) { return item.stage == FixedStage::solid; });
+    for (int i = 0; i < 2; ++i) {
+        FixedLight light;
+        light.position_ws = {i == 0 ? 3.0f : -4.0f, 6, 5};
+        light.direction_ws = light.position_ws * -1.0f;
+        light.directional = i == 1;
+        light.ambient = {0.1f, 0.1f, 0.1f}, light.diffuse = {0.5f, 0.4f, 0.3f}, light.specular = {0.3f, 0.3f, 0.4f};
+        light.cutoff_deg = 45, light.exponent = 4, light.attenuation[1] = 0.05f;
+        light.shadow_size = 300, light.shadow_half_width = 4;
+        frame.lights.push_back(light);
+    }
+    frame.has_mirror = effects;
+    frame.mirror = {{0, -0.5f, 0}, {0, 1, 0}, 0.5f};
+    if (effects) frame.fog_start = 3, frame.fog_end = 12, frame.fog_color = {0.5f, 0.6f, 0.7f};
+    std::vector<std::uint8_t> rgb(std::size_t{3} * kWidth * kHeight);
+    std::vector<float> depth(std::size_t{kWidth} * kHeight);
+    FixedTarget target{kWidth, kHeight, effects ? 4 : 1};
+    target.rgb = rgb.data(), target.depth = depth.data();
+    auto renderer = FixedFunctionRenderer::make(meshes, {picture, cube});
+    if (!renderer) return renderer.error().message;
+    if (auto ok = renderer->render(frame, target); !ok) return ok.error().message;
+    return hex(pixel_hash(rgb)) + " " + hex(pixel_hash(little_endian(depth)));
+}
+
 }  // namespace
 
 TEST_CASE("golden: every scene in every variant has the committed pixels", "[raster][golden]") {
@@ -127,11 +181,13 @@ TEST_CASE("golden: every scene in every variant has the committed pixels", "[ras
         std::string name = scene.name;
         std::replace(name.begin(), name.end(), ' ', '-');
         for (const Variant& variant : variants()) found[name + "/" + variant.name] = hashes(scene, variant);
+        found[name + "/fixed-function"] = fixed_hashes(scene, false);
+        found[name + "/fixed-function-effects"] = fixed_hashes(scene, true);
     }
 
     if (std::getenv("HALFLIT_UPDATE_GOLDEN") != nullptr) {
         std::ofstream out(kTable);
-        out << "# scene/variant, hash of the 8-bit picture, hash of the linear one; made by HALFLIT_UPDATE_GOLDEN=1 "
+        out << "# scene/variant, hash of the 8-bit picture, hash of the linear one (fixed function: of depths); made by HALFLIT_UPDATE_GOLDEN=1 "
                "(tests/raster/golden_test.cpp)\n";
         for (const auto& [name, hash] : found) out << name << " " << hash << "\n";
         out.close();
