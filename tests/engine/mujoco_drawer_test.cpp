@@ -146,6 +146,23 @@ TEST_CASE("mujoco drawer: depth of the color pass is that of opaque geoms and of
     }
 }
 
+TEST_CASE("mujoco drawer: of two geoms in one plane the later one is seen", "[engine][mujoco]") {
+    for (const bool swapped : {false, true}) {
+        RawScene raw;
+        raw.look_from({0, -4, 0}, {0, 1, 0});
+        for (const bool wide : {swapped, !swapped}) raw.add(kBox, {0, 0, 0}, {wide ? 1.0f : 0.5f, 1, wide ? 1.0f : 0.5f});
+        const Scene scene = raw.scene();
+        Planes got, alone;
+        Drawer by = drawer();
+        draw(by, got.picture(scene));
+        Picture picture = alone.picture(scene);
+        picture.rgb = nullptr;
+        draw(by, picture);
+        CHECK(got.segid[kMiddle] == 1);
+        CHECK(alone.segid == got.segid);
+    }
+}
+
 TEST_CASE("mujoco drawer: pictures from the bottom up are the same, turned", "[engine][mujoco]") {
     RawScene raw = box_scene();
     raw.look_from({0.3f, -4, 1}, {0, 1, -0.1f});

@@ -96,14 +96,15 @@ TEST_CASE("mujoco frame: the first opaque plane or box with reflectance mirrors,
     CHECK(made.frame.mirror.reflectance == 0.5f);
     CHECK(made.frame.mirror.point_ws == Vec3f{0, 1, -0.25f});
     CHECK(made.frame.mirror.normal_ws == Vec3f{0, 0, 1});
-    // The mirror is drawn first, in two parts, and is not seen in itself.
-    CHECK(ids(made, FixedStage::solid) == std::vector<std::uint32_t>{2, 2, 1, 3});
-    CHECK(made.frame.items[0].mirrors);
-    CHECK(!made.frame.items[1].mirrors);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(made.frame.items[i].in_mirror == (i > 1));
-    RawScene above = raw;
-    above.look_from({0, -4, -2}, {0, 1, 0});  // below it
-    CHECK(!frame_of(above).frame.has_mirror);
+    // MuJoCo draws the mirror first, and of equal depths the last geom is seen, so here the mirror is the last. It has two parts, and is
+    // not seen in itself.
+    CHECK(ids(made, FixedStage::solid) == std::vector<std::uint32_t>{3, 1, 2, 2});
+    CHECK(made.frame.items[2].mirrors);
+    CHECK(!made.frame.items[3].mirrors);
+    for (std::size_t i = 0; i < 4; ++i) CHECK(made.frame.items[i].in_mirror == (i < 2));
+    RawScene below = raw;
+    below.look_from({0, -4, -2}, {0, 1, 0});
+    CHECK(!frame_of(below).frame.has_mirror);
 }
 
 TEST_CASE("mujoco frame: capsules and arrows reach as far as their sizes say", "[engine][mujoco]") {
