@@ -96,9 +96,9 @@ def _members(text: str, structs: Dict[Any, Any]) -> List[Any]:
     return fields
 
 
-_structs, CONSTANTS, FUNCTIONS = declarations(header_text())
+STRUCTS, CONSTANTS, FUNCTIONS = declarations(header_text())
 STRUCT: Dict[Any, Any] = {}
-for _name, _text in _structs.items():
+for _name, _text in STRUCTS.items():
     STRUCT[_name] = type(_name, (Struct,), {"_fields_": _members(_text, STRUCT)})
     STRUCT[_name]._kinds = dict(STRUCT[_name]._fields_)
 

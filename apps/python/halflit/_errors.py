@@ -77,6 +77,6 @@ def made(code: int, text: str, path: Optional[bytes]) -> Error:
 def warn(text: str) -> None:
     """A warning at the line outside of the package that called it."""
     level, frame = 2, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+    while frame.f_back is not None and (frame.f_globals.get("__package__") or "").partition(".")[0] == __package__:
         level, frame = level + 1, frame.f_back
     warnings.warn(f"halflit: {text}", stacklevel=level)
