@@ -127,6 +127,7 @@ constexpr Document kDocuments[] = {
     {"docs/agents.md", "The server of the Model Context Protocol"},
     {"docs/recipes.md", "Thumbnails in a service, tests in CI, data sets, slicers, games, workers"},
     {"docs/migration.md", "From pyrender and from f3d"},
+    {"docs/mujoco.md", "Pictures of MuJoCo's classic renderer, in Python, without a GPU"},
     {"docs/formats.md", "Formats and extensions that are read, and what is not drawn"},
     {"docs/troubleshooting.md", "Messages of the program, each with its cause and cure"},
     {"docs/price_of_speed.md", "Settings that are faster, and what each costs in error"},
