@@ -80,18 +80,31 @@ struct Place {
 
 /// The texel of a cube that lies at (x, y) of a face, or beyond its border by one.
 Place texel_beyond(int face, int x, int y, int size) {
-    // Doubled coordinates of the texel's middle, from -size to size, on a face at `size`; one step beyond the border leads to the next face.
+    // Doubled coordinates of the texel's middle, from -size to size, on a face at `size`; one step beyond the border leads to the next
+    // face.
     const auto middle = [&](int i) { return 2 * i + 1 - size; };
     int s = middle(x), t = middle(y), d[3];
     const int w = size;
     const auto direction = [&](int a, int b, int c) { d[0] = a, d[1] = b, d[2] = c; };
     switch (face) {
-        case 0: direction(w, -t, -s); break;
-        case 1: direction(-w, -t, s); break;
-        case 2: direction(s, w, t); break;
-        case 3: direction(s, -w, -t); break;
-        case 4: direction(s, -t, w); break;
-        default: direction(-s, -t, -w); break;
+        case 0:
+            direction(w, -t, -s);
+            break;
+        case 1:
+            direction(-w, -t, s);
+            break;
+        case 2:
+            direction(s, w, t);
+            break;
+        case 3:
+            direction(s, -w, -t);
+            break;
+        case 4:
+            direction(s, -t, w);
+            break;
+        default:
+            direction(-s, -t, -w);
+            break;
     }
     // Beyond the border one coordinate is larger than the face's own, which then counts as that of the border's texels.
     int axis = face / 2;

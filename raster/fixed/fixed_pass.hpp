@@ -7,6 +7,7 @@
 #include "raster/fixed/shadow_lookups.hpp"
 #include "raster/passes/tile.hpp"
 
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,6 +19,7 @@ struct SampleImage {
     Region region{};
     int samples = 1;
     std::vector<std::uint32_t> codes;  ///< those of a pixel together
+    MemoryShare memory;
     [[nodiscard]] std::size_t index(int x, int y) const {
         return (static_cast<std::size_t>(y - region.y) * static_cast<std::size_t>(region.width) + static_cast<std::size_t>(x - region.x)) *
                static_cast<std::size_t>(samples);
@@ -28,24 +30,26 @@ struct SampleImage {
 struct FixedContext {
     const FixedFrame& frame;
     const PreparedData& scene;
-    std::span<const CodeLevelsData> textures;
+    std::span<const std::shared_ptr<const CodeLevelsData>> textures;
     const RasterKernels& kernels;
     Executor& executor;
     Pool<TileScratch>& scratch;
 };
 
-/// Draws depth and ids alone. Backdrops are among them if they are visible and the target says so.
+/// Draws depth and ids of the visible items alone.
 Result<void> draw_planes(const FixedContext& context, const View& view, ViewGeometry& geometry, const FixedTarget& target);
 
 class FixedPass {
 public:
-    /// Finds what each tile shows, and its light but for shadows. maps: of the lights that have some; planes: where depth and ids go, or null.
+    /// Finds what each tile shows, and its light but for shadows. maps: of the lights that have some; planes: where depth and ids go, or
+    /// null.
     Result<void> shade(const FixedContext& context, const View& view, const VertexLight& light, std::span<const LightMap> maps,
                        const FixedTarget* planes);
     /// Pixels that show what mirrors; empty if none does.
     [[nodiscard]] const Region& mirror_region() const { return mirror_region_; }
     /// Draws the shadows of light number `in_turn` of those that have some.
-    Result<void> find_shadows(const FixedContext& context, const ShadowRule& rule, int in_turn, const LightMap& map, LightOcclusion& occlusion);
+    Result<void> find_shadows(const FixedContext& context, Executor& executor, const ShadowRule& rule, int in_turn, const LightMap& map,
+                              LightOcclusion& occlusion);
     /// Adds everything up. in_mirror: null: nothing is seen in mirrors.
     void compose(const FixedContext& context, const SampleImage* in_mirror, SampleImage& out);
 
@@ -64,7 +68,10 @@ private:
         std::vector<Fragment> fragments;
         std::vector<Layer> layers;
         std::vector<std::vector<ShadowLookup>> lit;  ///< of each light, where its light is not 0
-        int x0, y0, x1, y1;  ///< pixels that mirror
+        int x0, y0, x1, y1;                          ///< pixels that mirror
+        MemoryShare memory;
+        /// Counts the lists as the call's memory.
+        void count_memory(StopSignal& stop);
     };
     class Shader;
 
@@ -72,7 +79,7 @@ private:
     ViewGeometry geometry_;
     VertexRecords surface_;
     std::vector<std::unique_ptr<VertexRecords>> lights_;  ///< kLightsARecord lights each
-    std::vector<Tile> tiles_;
+    std::deque<Tile> tiles_;
     Region mirror_region_{};
 };
 

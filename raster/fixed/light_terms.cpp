@@ -101,12 +101,12 @@ void VertexLight::fill(const FixedItem& item, const VertexRecordArgs& args, cons
         light.separate = true;
         // Solid items without light have their color again in the pass of each light, as far as it is not in shadow.
         for (int k = 0; k < 3; ++k) light.color[k] = material.unlit && item.stage == FixedStage::solid ? color[k] : 0.0f;
-        if (material.unlit) material.color = {0, 0, 0, 0}, material.specular = 0.0f;
-        for (int i = in_turn; i < in_turn + count; ++i) terms.push_back(on_material(lights_[shadowed_[static_cast<std::size_t>(i)]], material));
+        if (material.unlit || item.stage != FixedStage::solid) material.color = {0, 0, 0, 0}, material.specular = 0.0f;
+        for (int i = in_turn; i < in_turn + count; ++i)
+            terms.push_back(on_material(lights_[shadowed_[static_cast<std::size_t>(i)]], material));
     } else {
         if (!material.unlit)
-            for (const std::size_t i : item.stage == FixedStage::transparent ? all_ : plain_)
-                terms.push_back(on_material(lights_[i], material));
+            for (const std::size_t i : item.stage == FixedStage::solid ? plain_ : all_) terms.push_back(on_material(lights_[i], material));
         std::copy(std::begin(depth_row_), std::end(depth_row_), light.depth);
         light.generated = material.generated && material.texture >= 0;
         if (light.generated) rows_in_world(item, light.planes);

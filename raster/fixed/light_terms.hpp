@@ -13,8 +13,10 @@ namespace halflit::raster {
 /// Writes what a frame's vertices have: the light of all lights or of those without shadows, and that of each light with a shadow.
 class VertexLight {
 public:
-    /// view_from_world, clip_from_world: of the picture. shares: shadowed lights have sums of their own, where items receive them. reflectance: of the mirror that shows the items.
-    VertexLight(const FixedFrame& frame, const Mat4& view_from_world, const Mat4& clip_from_world, Vec3f eye_ws, bool shares, float reflectance);
+    /// view_from_world, clip_from_world: of the picture. shares: shadowed lights have sums of their own, where items receive them.
+    /// reflectance: of the mirror that shows the items.
+    VertexLight(const FixedFrame& frame, const Mat4& view_from_world, const Mat4& clip_from_world, Vec3f eye_ws, bool shares,
+                float reflectance);
 
     /// Attribute slots of the surface's records: position and depth, coordinates, colour, and with textures what else
     /// they need.

@@ -10,10 +10,10 @@ namespace halflit::raster {
 namespace {
 
 constexpr std::size_t kRoom = 16;  // whole vectors are read
-constexpr float kFarAway = 2.0f;  ///< reversed depth that nothing is nearer than
+constexpr float kFarAway = 2.0f;   ///< reversed depth that nothing is nearer than
 
 Mat4 clip_of(const FixedLight& light) {
-    const Vec3f d = light.direction_ws, across = cross(d, Vec3f{-1, 0, 0});
+    const Vec3f d = normalize_or(light.direction_ws, {0, 0, -1}), across = cross(d, Vec3f{-1, 0, 0});
     const Vec3f up = dot(across, across) > 0.01f ? across : cross(d, Vec3f{0, 1, 0});
     Frustum frustum{};
     frustum.parallel = light.directional;
@@ -88,8 +88,18 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
             x_[i] = (at.x - x0) & (side - 1), y_[i] = (at.y - y0) & (side - 1), z_[i] = at.z;
             farthest_[t] = std::min(farthest_[t], at.z);
         }
-    const OcclusionGrid grid{x0, y0, side, view.tiles_x, first_.data(), x_.data(), y_.data(), z_.data(), farthest_.data(), rule.offset_factor,
-                             units, hidden_.data()};
+    const OcclusionGrid grid{x0,
+                             y0,
+                             side,
+                             view.tiles_x,
+                             first_.data(),
+                             x_.data(),
+                             y_.data(),
+                             z_.data(),
+                             farthest_.data(),
+                             rule.offset_factor,
+                             units,
+                             hidden_.data()};
     if (auto ok = geometry_.occlude(casters, view, grid, kernels, executor); !ok) return ok;
     std::size_t i = 0;
     for (const std::span<ShadowLookup> group : groups)

@@ -40,8 +40,8 @@ private:
 /// Finds which lookups are hidden. Lookups come in groups, of tiles of the picture.
 class LightOcclusion {
 public:
-    Result<void> find(const PreparedData& casters, const LightMap& map, const ShadowRule& rule, std::span<const std::span<ShadowLookup>> groups,
-                      const RasterKernels& kernels, Executor& executor);
+    Result<void> find(const PreparedData& casters, const LightMap& map, const ShadowRule& rule,
+                      std::span<const std::span<ShadowLookup>> groups, const RasterKernels& kernels, Executor& executor);
 
 private:
     ViewGeometry geometry_;

@@ -144,7 +144,8 @@ HALFLIT_INLINE void level_color(const CodeLevels& levels, const CodePlace& place
     I texel[4];
     F along, down;
     if (levels.cube) {
-        const F size = to_float(width), s = place.u * size + F(0.5f), t = place.v * size + F(0.5f);  // in texels of the face with its border
+        const F size = to_float(width), s = place.u * size + F(0.5f),
+                t = place.v * size + F(0.5f);  // in texels of the face with its border
         const F left = clamp(vfloor(s), F(0.0f), size), top = clamp(vfloor(t), F(0.0f), size);
         along = s - left, down = t - top;
         const I pitch = width + I(2), at = first + (place.face * pitch + round_to_int(top)) * pitch + round_to_int(left);
@@ -221,7 +222,9 @@ inline void code_texels(const TexelArgs& args, TexelRows& out) {
         CodePlace place{u.value, v.value, I(0)};
         if (levels.cube) {
             const Around r = around(kU1, kDu1Dx, kDu1Dy);
-            const auto step_x = [&](const Around& of) __attribute__((always_inline)) { return of.at(left + one, none) - of.at(left, none); };
+            const auto step_x = [&](const Around& of) __attribute__((always_inline)) {
+                return of.at(left + one, none) - of.at(left, none);
+            };
             const auto step_y = [&](const Around& of) __attribute__((always_inline)) { return of.at(none, low - one) - of.at(none, low); };
             const V3 step[2] = {{step_x(u), step_x(v), step_x(r)}, {step_y(u), step_y(v), step_y(r)}};
             place = cube_place({u.value, v.value, r.value}, step, du, dv);

@@ -30,10 +30,11 @@ struct FixedVertexArgs {
     float shininess;
     const FixedLightTerms* lights;
     int light_count;
-    bool unlit;     ///< `color` times the vertex colour
-    bool separate;  ///< a group of four floats for each light, added to `color`; otherwise the lights are added to `color`, and these are written:
-    float depth[4];      ///< slot 0: position and the distance along the view, this row times (x, y, z, 1); slot 1: nothing, and coordinates,
-    bool generated;      ///< which are those of the mesh, or
+    bool unlit;      ///< `color` times the vertex colour
+    bool separate;   ///< a group of four floats for each light, added to `color`; otherwise the lights are added to `color`, and these are
+                     ///< written:
+    float depth[4];  ///< slot 0: position and the distance along the view, this row times (x, y, z, 1); slot 1: nothing, and coordinates,
+    bool generated;  ///< which are those of the mesh, or
     float planes[3][4];  ///< these rows times (x, y, z, 1) of the world; slot 2: colour and alpha
     bool textured;       ///< slot 4: the third coordinate, and this row times (x, y, z, 1): clip w
     float clip_w[4];
@@ -41,7 +42,8 @@ struct FixedVertexArgs {
 
 inline constexpr int kMostLevels = 16;
 
-/// A texture's levels. A texel is red | green << 8 | blue << 16. Faces of cubes have a border of one texel, which shows what is beside them.
+/// A texture's levels. A texel is red | green << 8 | blue << 16. Faces of cubes have a border of one texel, which shows what is beside
+/// them.
 struct CodeLevels {
     const std::int32_t* texels;
     const float* decoded;  ///< numbers of codes 0 to 255
@@ -67,10 +69,10 @@ struct TexelRows {
 
 /// Colours of fragments as codes: light times texture, with fog.
 struct CodeArgs {
-    const float* light[4];            ///< rows; [3]: alpha
-    const TexelRows* texels;          ///< null: no texture
-    const float* depth;               ///< distances along the view; null: no fog
-    float fog_end, fog_scale;         ///< share of the colour: (fog_end - depth) fog_scale
+    const float* light[4];     ///< rows; [3]: alpha
+    const TexelRows* texels;   ///< null: no texture
+    const float* depth;        ///< distances along the view; null: no fog
+    float fog_end, fog_scale;  ///< share of the colour: (fog_end - depth) fog_scale
     float fog_color[3];
     int count;
     std::uint32_t* codes;  ///< red | green << 8 | blue << 16 | alpha << 24; whole vectors are written
@@ -78,11 +80,11 @@ struct CodeArgs {
 
 /// Places in a light's view, at middles of texels, by tiles of it.
 struct OcclusionGrid {
-    int x0, y0, tile_size, tiles_x;  ///< pixel where the first tile begins; side of a tile; tiles in a row
-    const std::uint32_t* first;      ///< of each tile its first place; one more at the end
-    const std::int32_t *x, *y;       ///< pixels, from the tile's first one; these arrays have room for a whole vector at the end
-    const float* z;                  ///< reversed depth
-    const float* farthest;           ///< of each tile: least of its depths; 2: it has no places
+    int x0, y0, tile_size, tiles_x;     ///< pixel where the first tile begins; side of a tile; tiles in a row
+    const std::uint32_t* first;         ///< of each tile its first place; one more at the end
+    const std::int32_t *x, *y;          ///< pixels, from the tile's first one; these arrays have room for a whole vector at the end
+    const float* z;                     ///< reversed depth
+    const float* farthest;              ///< of each tile: least of its depths; 2: it has no places
     float offset_factor, offset_units;  ///< depths of triangles are moved away from the light by factor times the slope, and this
     std::int32_t* hidden;               ///< set to -1 where a triangle is nearer
 };

@@ -34,9 +34,8 @@ HALFLIT_INLINE const TriangleRecord& record_of(const TriangleTable& table, std::
 namespace halflit::raster {
 #define HALFLIT_RASTER_KERNELS HALFLIT_CONCAT(raster_kernels_, HALFLIT_ISA)
 extern const RasterKernels HALFLIT_RASTER_KERNELS;
-const RasterKernels HALFLIT_RASTER_KERNELS = {transform,   vertex_records, bin_triangles,    rasterize,      rasterize_depth,
-                                              cover,       cover_layer,    cover_all,        draw_covered,   collect,
-                                              interpolate, distances,      sweep_covers,     add_grid_terms, cover_ground,
-                                              shadow_row,  take_means,     shade_background, project_splats, blend_splats,
-                                              fixed_vertices, code_texels, fixed_codes,     occlude};
+const RasterKernels HALFLIT_RASTER_KERNELS = {
+    transform,    vertex_records,   bin_triangles,  rasterize,    rasterize_depth, cover,          cover_layer,  cover_all,
+    draw_covered, collect,          interpolate,    distances,    sweep_covers,    add_grid_terms, cover_ground, shadow_row,
+    take_means,   shade_background, project_splats, blend_splats, fixed_vertices,  code_texels,    fixed_codes,  occlude};
 }  // namespace halflit::raster

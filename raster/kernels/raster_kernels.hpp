@@ -384,7 +384,8 @@ struct RasterKernels {
     void (*fixed_vertices)(const FixedVertexArgs&);
     void (*code_texels)(const TexelArgs&, TexelRows&);
     void (*fixed_codes)(const CodeArgs&);
-    /// Marks the places that a triangle hides, in the tiles (tile_x0, tile_y0) to (tile_x1, tile_y1). a, b, c: in the order of positive area.
+    /// Marks the places that a triangle hides, in the tiles (tile_x0, tile_y0) to (tile_x1, tile_y1). a, b, c: in the order of positive
+    /// area.
     void (*occlude)(const OcclusionGrid&, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int tile_x0, int tile_y0,
                     int tile_x1, int tile_y1);
 };

@@ -24,8 +24,8 @@ struct BinInput {
     const std::uint8_t* outcodes;
     std::uint8_t* groups_drawn;
     const OcclusionGrid* occlusion;  ///< not null: triangles hide its places, and are not kept
-    bool numbered;   ///< keep each record's submission number
-    bool only_used;  ///< keep only the vertices that triangles use
+    bool numbered;                   ///< keep each record's submission number
+    bool only_used;                  ///< keep only the vertices that triangles use
     const RasterKernels& kernels;
     StopSignal& stop;
 };
@@ -324,9 +324,17 @@ private:
 }  // namespace
 
 void ViewGeometry::bin(const Batch& batch, const RasterKernels& kernels, Executor& executor) {
-    const BinInput input{
-        *scene_, view_,     draws_,  screen_.data(), outcodes_.data(), groups_drawn_.data(), occlusion_, numbered_, has_only_used_vertices(),
-        kernels, executor.stop()};
+    const BinInput input{*scene_,
+                         view_,
+                         draws_,
+                         screen_.data(),
+                         outcodes_.data(),
+                         groups_drawn_.data(),
+                         occlusion_,
+                         numbered_,
+                         has_only_used_vertices(),
+                         kernels,
+                         executor.stop()};
     const int count = static_cast<int>(batch.end_chunk - batch.first_chunk);
     const auto build = [&](int i) { ChunkBuilder(input, *chunks_[batch.first_chunk + static_cast<std::size_t>(i)]).build(); };
     if (occlusion_ == nullptr)

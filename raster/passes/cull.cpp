@@ -23,8 +23,7 @@ bool is_mirrored(const View& view, const Mat4& world_from_object) { return (dete
 Culler culler_of(const View& view, const Mat4& world_from_object, bool back_faces, Topology topology) {
     // Half of the diagonal of a point's square, or of a line's end, is less than its side.
     const double margin_px = topology == Topology::triangles ? 0.0 : size_of(view, topology) / 256.0;
-    return {view, multiply_in_double(view.clip_from_world, world_from_object), is_mirrored(view, world_from_object), back_faces,
-            margin_px};
+    return {view, multiply_in_double(view.clip_from_world, world_from_object), is_mirrored(view, world_from_object), back_faces, margin_px};
 }
 
 Culler::Verdict verdict_on(const Culler& culler, const Bounds& bounds) {

@@ -73,11 +73,12 @@ Result<void> ViewGeometry::make(const PreparedData& scene, const View& view, con
 Result<void> ViewGeometry::occlude(const PreparedData& scene, const View& view, const OcclusionGrid& grid, const RasterKernels& kernels,
                                    Executor& executor) {
     forget();
+    struct Setting {
+        ViewGeometry& of;
+        ~Setting() { of.occlusion_ = nullptr, of.forget(); }
+    } const ends_also_by_exception{*this};
     occlusion_ = &grid;
-    auto made = make(scene, view, kernels, executor);
-    occlusion_ = nullptr;
-    forget();
-    return made;
+    return make(scene, view, kernels, executor);
 }
 
 /// Gives the used vertices of all chunks one numbering, that of the view, and moves them to its arrays.

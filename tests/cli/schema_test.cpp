@@ -116,7 +116,8 @@ TEST_CASE("schema: bench, info, diff, golden and trade have the keys that their 
 }
 
 TEST_CASE("schema: lobe and env have the keys that their schemas describe", "[cli][schema]") {
-    for (const std::vector<std::string>& model : {std::vector<std::string>{"lambert"}, {"sloan", "--wrap", "1"}, {"green", "--power", "0.5"}}) {
+    for (const std::vector<std::string>& model :
+         {std::vector<std::string>{"lambert"}, {"sloan", "--wrap", "1"}, {"green", "--power", "0.5"}}) {
         std::vector<std::string> arguments{"lobe", "--json"};
         arguments.insert(arguments.begin() + 1, model.begin(), model.end());
         check_report("lobe", output_of(arguments));

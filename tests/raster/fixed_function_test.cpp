@@ -48,9 +48,7 @@ CodeTexture texture(Random& random, int width, int height, bool cube) {
     return made;
 }
 
-Vec3f direction(Random& random) {
-    return {random.real32(-1.0f, 1.0f), random.real32(-1.0f, 1.0f), random.real32(-1.0f, 1.0f)};
-}
+Vec3f direction(Random& random) { return {random.real32(-1.0f, 1.0f), random.real32(-1.0f, 1.0f), random.real32(-1.0f, 1.0f)}; }
 
 std::vector<Mesh> meshes() { return {make_sphere(1.0f, 12, 8), make_box({1, 1, 1})}; }
 
@@ -75,7 +73,8 @@ FixedFrame random_frame(Random& random, int textures) {
         material.shininess = random.real32(0, 128);
         material.texture = static_cast<int>(random.real32(0.0f, static_cast<float>(textures) + 0.99f)) - 1;
         material.generated = true;
-        for (Vec4f& plane : material.planes) plane = {random.real32(-1, 1), random.real32(-1, 1), random.real32(-1, 1), random.real32(-1, 1)};
+        for (Vec4f& plane : material.planes)
+            plane = {random.real32(-1, 1), random.real32(-1, 1), random.real32(-1, 1), random.real32(-1, 1)};
         item.id = i + 1;
         frame.items.push_back(item);
     }
@@ -262,7 +261,8 @@ TEST_CASE("fixed function: what a light's map hides is what the whole map shows"
         executor.configure({});
         std::vector<ShadowLookup> asked;
         for (int i = 0; i < 3000; ++i)
-            asked.push_back({0, 0, {static_cast<int>(random.real32(0, 199.9f)), static_cast<int>(random.real32(0, 199.9f)), random.real32(0, 1), 0}});
+            asked.push_back(
+                {0, 0, {static_cast<int>(random.real32(0, 199.9f)), static_cast<int>(random.real32(0, 199.9f)), random.real32(0, 1), 0}});
         const std::span<ShadowLookup> groups[] = {std::span(asked).first(1000), std::span(asked).subspan(1000)};
         LightOcclusion occlusion;
         REQUIRE(occlusion.find(*prepared, map, rule, groups, kernels, executor));
@@ -391,8 +391,8 @@ TEST_CASE("fixed function: textures are filtered between texels and levels, and 
     frame.items.push_back(item);
     const Drawn drawn = draw(*renderer, frame);
     int compared = 0;
-    const Vec3d eye = wide(frame.camera.position_ws), ahead = unit(wide(frame.camera.forward_ws)), right = unit(cross(ahead, Vec3d{0, 1, 0})),
-                up = cross(right, ahead);
+    const Vec3d eye = wide(frame.camera.position_ws), ahead = unit(wide(frame.camera.forward_ws)),
+                right = unit(cross(ahead, Vec3d{0, 1, 0})), up = cross(right, ahead);
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const double u = -0.35 + 0.7 * (x + 0.5) / kSide, v = 0.35 - 0.7 * (y + 0.5) / kSide;

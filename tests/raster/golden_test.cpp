@@ -122,7 +122,8 @@ std::string fixed_hashes(const test::NamedScene& named, bool effects) {
     FixedFrame frame;
     const Vec4f &back = named.camera.world_from_camera.c[2], &up = named.camera.world_from_camera.c[1],
                 &eye = named.camera.world_from_camera.c[3];
-    frame.camera = {{eye.x, eye.y, eye.z}, {-back.x, -back.y, -back.z}, {up.x, up.y, up.z}, false, -0.8f, 0.8f, -0.45f, 0.45f, 1.0f, 100.0f};
+    frame.camera = {
+        {eye.x, eye.y, eye.z}, {-back.x, -back.y, -back.z}, {up.x, up.y, up.z}, false, -0.8f, 0.8f, -0.45f, 0.45f, 1.0f, 100.0f};
     frame.eye_ws = frame.camera.position_ws;
     CodeTexture picture{7, 4, false, false, {}}, cube{4, 4, true, false, {}};
     for (int i = 0; i < 3 * 28; ++i) picture.rgb.push_back(static_cast<std::uint8_t>(37 * i * i + 11));
@@ -141,7 +142,8 @@ std::string fixed_hashes(const test::NamedScene& named, bool effects) {
         item.material.specular = 0.5f, item.material.shininess = 20.0f;
         item.material.texture = static_cast<int>(number % 3) - 1;
         item.material.generated = true;
-        for (std::size_t k = 0; k < 3; ++k) item.material.planes[k] = {k == 0 ? 1.0f : 0.2f, k == 1 ? 1.0f : 0.1f, k == 2 ? 1.0f : -0.1f, 0.3f};
+        for (std::size_t k = 0; k < 3; ++k)
+            item.material.planes[k] = {k == 0 ? 1.0f : 0.2f, k == 1 ? 1.0f : 0.1f, k == 2 ? 1.0f : -0.1f, 0.3f};
         if (effects && number % 4 == 3) item.stage = FixedStage::transparent, item.material.color.w = 0.4f;
         item.mirrors = effects && number == 0;
         frame.items.push_back(item);
@@ -187,7 +189,8 @@ TEST_CASE("golden: every scene in every variant has the committed pixels", "[ras
 
     if (std::getenv("HALFLIT_UPDATE_GOLDEN") != nullptr) {
         std::ofstream out(kTable);
-        out << "# scene/variant, hash of the 8-bit picture, hash of the linear one (fixed function: of depths); made by HALFLIT_UPDATE_GOLDEN=1 "
+        out << "# scene/variant, hash of the 8-bit picture, hash of the linear one (fixed function: of depths); made by "
+               "HALFLIT_UPDATE_GOLDEN=1 "
                "(tests/raster/golden_test.cpp)\n";
         for (const auto& [name, hash] : found) out << name << " " << hash << "\n";
         out.close();

@@ -29,12 +29,14 @@ struct CodeTexture {
 struct FixedMaterial {
     Vec4f color{0.5f, 0.5f, 0.5f, 1.0f};  ///< what ambient and diffuse light is multiplied by; w: alpha
     Vec3f emission{0, 0, 0};
-    float specular = 0.0f;    ///< the highlight's color, grey
-    float shininess = 0.0f;   ///< exponent of the highlight
-    int texture = -1;         ///< index of a CodeTexture; -1: none
-    bool generated = false;   ///< texture coordinates are `planes` times (x, y, z, 1) of the object; false: Mesh::uv0
-    Vec4f planes[3]{};        ///< for u, v and, of cubes, the third coordinate
-    bool unlit = false;       ///< its color alone counts, times Mesh::colors if the mesh has some
+    float specular = 0.0f;   ///< the highlight's color, grey
+    float shininess = 0.0f;  ///< exponent of the highlight, 0 to 10000
+    int texture = -1;        ///< index of a CodeTexture; -1: none
+    bool generated = false;  ///< texture coordinates are `planes` times (x, y, z, 1) of the object; false: Mesh::uv0
+    Vec4f planes[3]{};       ///< for u, v and, of cubes, the third coordinate
+    /// Its color alone counts, times Mesh::colors if the mesh has some. Solid items show the color once more for each light with shadows
+    /// that reaches them, as surfaces without OpenGL's lighting do in such passes.
+    bool unlit = false;
 };
 
 /// When an item is drawn.
@@ -51,27 +53,27 @@ struct FixedItem {
     Mat4 world_from_object{};  ///< affine
     FixedMaterial material;
     FixedStage stage = FixedStage::solid;
-    std::uint32_t id = 0;       ///< what the plane of ids shows; items of one id are one object
-    bool both_sides = false;    ///< nothing of it is culled; of what casts shadows this does not count
+    std::uint32_t id = 0;     ///< what the plane of ids shows; items of one id are one object
+    bool both_sides = false;  ///< nothing of it is culled; of what casts shadows this does not count
     bool casts_shadow = true;
-    bool mirrors = false;       ///< shows FixedFrame::mirror, to which its own color is added
-    bool in_mirror = true;      ///< is seen in the mirror
-    bool in_planes = true;      ///< is drawn where ids are
+    bool mirrors = false;   ///< shows FixedFrame::mirror, to which its own color is added
+    bool in_mirror = true;  ///< is seen in the mirror
+    bool in_planes = true;  ///< is drawn where ids are
 };
 
 /// A light. Its terms are added as OpenGL adds those of its lights.
 struct FixedLight {
-    Vec3f position_ws{0, 0, 0};         ///< not of directional lights, but where their shadow map is seen from
-    Vec3f direction_ws{0, 0, -1};       ///< the way that the light goes
-    bool directional = false;           ///< otherwise it comes from position_ws
+    Vec3f position_ws{0, 0, 0};    ///< of directional lights, only the place from which the shadow map is seen
+    Vec3f direction_ws{0, 0, -1};  ///< the way that the light goes, any length
+    bool directional = false;      ///< otherwise it comes from position_ws
     Vec3f ambient{0, 0, 0}, diffuse{0, 0, 0}, specular{0, 0, 0};
-    float attenuation[3] = {1, 0, 0};   ///< 1 / (a + b d + c d d) at the distance d
-    float cutoff_deg = 180.0f;          ///< half angle of the cone, 0 to 90, or 180: all directions
-    float exponent = 0.0f;              ///< power of the cosine from the cone's axis
-    /// Side of its shadow map, texels; 0: it casts none. What is in shadow has none of its light, the ambient part neither.
+    float attenuation[3] = {1, 0, 0};  ///< 1 / (a + b d + c d d) at the distance d
+    float cutoff_deg = 180.0f;         ///< half angle of the cone, 0 to 90, or 180: all directions
+    float exponent = 0.0f;             ///< power of the cosine from the cone's axis, 0 to 10000
+    /// Side of its shadow map, 4 to 16384 texels; 0: it casts none. What is in shadow has none of its light, the ambient part neither.
     int shadow_size = 0;
-    float shadow_fov_deg = 90.0f;       ///< of the map's view; 0 to 180, not of directional lights
-    float shadow_half_width = 1.0f;     ///< of directional lights' maps, world units
+    float shadow_fov_deg = 90.0f;                   ///< of the map's view; 0 to 180, not of directional lights
+    float shadow_half_width = 1.0f;                 ///< of directional lights' maps, world units
     float shadow_near = 0.1f, shadow_far = 100.0f;  ///< limits of the map's view, world units
 };
 
@@ -95,38 +97,39 @@ struct FixedCamera {
 /// A plane that mirrors what is on the side that its normal points to.
 struct FixedMirror {
     Vec3f point_ws{0, 0, 0};
-    Vec3f normal_ws{0, 0, 1};   ///< length 1
-    float reflectance = 0.0f;   ///< colors in the mirror are multiplied by this, highlights not
+    Vec3f normal_ws{0, 0, 1};  ///< any length
+    float reflectance = 0.0f;  ///< colors in the mirror are multiplied by this, highlights not
 };
 
 /// Everything that one picture shows.
 struct FixedFrame {
     FixedCamera camera;
-    /// In any order but for haze, and transparent items: these from front to back, and consecutive ones of one id are one object.
+    /// Solid items and backdrops are in any order; of equal depths the first stays. Transparent items are from front to back, and
+    /// consecutive ones of one id are one object.
     std::vector<FixedItem> items;
     std::vector<FixedLight> lights;
-    Vec3f eye_ws{0, 0, 0};      ///< from where highlights are seen; usually the camera's position
-    float ambient = 0.0f;       ///< of all surfaces, beside the lights
-    bool culls_faces = true;    ///< false: both sides are drawn
-    bool adds_layers = false;   ///< transparent items are added to what is behind, once, instead of covering it
+    Vec3f eye_ws{0, 0, 0};     ///< from where highlights are seen; usually the camera's position
+    float ambient = 0.0f;      ///< of all surfaces, beside the lights
+    bool culls_faces = true;   ///< false: both sides are drawn
+    bool adds_layers = false;  ///< transparent items are added to what is behind, once, instead of covering it
     bool has_mirror = false;
     FixedMirror mirror;
-    float fog_start = 0, fog_end = 0;    ///< distances along the view; equal: there is no fog
+    float fog_start = 0, fog_end = 0;  ///< distances along the view; equal: there is no fog
     Vec3f fog_color{0, 0, 0};
-    float line_width = 1.0f;             ///< pixels; lines have no light of their own
+    float line_width = 1.0f;  ///< pixels, 1/16 to 256; lines have no light of their own
     ShadowRule shadow;
 };
 
 /// Memory for a picture. A null pointer: not made, and where `rgb` is null nothing is lit. Row 0 is the top row, or the bottom row.
 struct FixedTarget {
-    int width = 0, height = 0;           ///< pixels
-    int samples = 1;                     ///< 1 or 4 a pixel, for rgb alone
+    int width = 0, height = 0;  ///< pixels
+    int samples = 1;            ///< 1 or 4 a pixel, for rgb alone
     bool bottom_up = false;
-    std::uint8_t* rgb = nullptr;         ///< three codes a pixel, rows one after the other
-    float* depth = nullptr;              ///< at the pixel's middle: 1 at the near plane, 0 at the far plane and where nothing is
-    std::uint32_t* ids = nullptr;        ///< FixedItem::id of what is nearest there; 0: nothing
-    bool transparent_planes = true;      ///< transparent items count in `ids` and `depth`
-    bool backdrop_depth = false;         ///< backdrops count in `depth`, and transparent items do not
+    std::uint8_t* rgb = nullptr;     ///< three codes a pixel, rows one after the other
+    float* depth = nullptr;          ///< at the pixel's middle: 1 at the near plane, 0 at the far plane and where nothing is
+    std::uint32_t* ids = nullptr;    ///< FixedItem::id of what is nearest there; 0: nothing
+    bool transparent_planes = true;  ///< transparent items count in `ids` and `depth`
+    bool backdrop_depth = false;     ///< backdrops count in `depth`, and transparent items do not: with rgb of one sample, without ids
 };
 
 /// Meshes and textures that stay, and frames of them. One frame at a time; any number of renderers may draw at once.
@@ -142,13 +145,15 @@ public:
     HALFLIT_API FixedFunctionRenderer& operator=(FixedFunctionRenderer&&) noexcept;
     /// @}
 
-    /// Another one with the same meshes and textures, for another thread.
-    [[nodiscard]] HALFLIT_API Result<FixedFunctionRenderer> copy() const;
+    /// Another one for another thread: it shares the textures, and has meshes of its own.
+    [[nodiscard]] HALFLIT_API Result<FixedFunctionRenderer> copy(const Execution& execution = {}) const;
 
     /// Replaces positions and normals of a mesh, as many as it has.
-    [[nodiscard]] HALFLIT_API Result<void> set_vertices(int mesh, std::span<const Vec3f> positions, std::span<const Vec3f> normals);
+    [[nodiscard]] HALFLIT_API Result<void> set_vertices(int mesh, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                                                        const Execution& execution = {});
 
-    /// Draws a frame. Fails (bad_input) for indices out of range, (usage) for a picture or camera without a size.
+    /// Draws a frame. Fails (bad_input) for indices and numbers out of range, (usage) for a picture or camera without a size. `on_tile` and
+    /// `progress` are not called.
     [[nodiscard]] HALFLIT_API Result<void> render(const FixedFrame& frame, const FixedTarget& target, const Execution& execution = {});
 
 private:
