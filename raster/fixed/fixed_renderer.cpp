@@ -100,7 +100,11 @@ struct FixedFunctionRenderer::Impl {
     Pool<TileScratch> scratch;
     FixedPass picture, mirrored;
     ViewGeometry planes;
-    std::vector<std::unique_ptr<LightOcclusion>> occlusions;  ///< of each light with shadows
+    struct OfLight {
+        Executor serial;  ///< a host's loop does not run in itself
+        LightOcclusion occlusion;
+    };
+    std::vector<std::unique_ptr<OfLight>> lights;  ///< of each light with shadows
     SampleImage image, in_mirror;
     bool stale = false;  ///< a mesh was changed and not prepared
 
@@ -180,7 +184,7 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
 
     // Depth and ids are those of the picture's own triangles where the same items are drawn, once a pixel.
     const bool has_planes = target.depth != nullptr || target.ids != nullptr;
-    if (target.backdrop_depth && (target.rgb == nullptr || target.samples != 1 || target.ids != nullptr))
+    if (target.depth != nullptr && target.backdrop_depth && (target.rgb == nullptr || target.samples != 1 || target.ids != nullptr))
         return fail(ErrorCode::usage, "the depth of backdrops comes with rgb of one sample, and without ids");
     const bool others = !target.backdrop_depth && any([&](const FixedItem& item) {
         return (item.stage == FixedStage::solid && !item.in_planes) || (item.stage == FixedStage::transparent && target.transparent_planes);
@@ -208,13 +212,12 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
         show(frame, false, sides, [](const FixedItem& item) {
             return item.casts_shadow && (item.stage == FixedStage::solid || item.stage == FixedStage::transparent);
         });
-        while (occlusions.size() < maps.size()) occlusions.push_back(std::make_unique<LightOcclusion>());
+        while (lights.size() < maps.size()) lights.push_back(std::make_unique<OfLight>());
         std::vector<Result<void>> of_lights(maps.size());
         executor.run(static_cast<int>(maps.size()), [&](int i) {
             const auto k = static_cast<std::size_t>(i);
-            Executor serial;  // a host's loop does not run in itself
-            serial.configure(one_thread);
-            of_lights[k] = picture.find_shadows(context, serial, frame.shadow, i, maps[k], *occlusions[k]);
+            lights[k]->serial.configure(one_thread);
+            of_lights[k] = picture.find_shadows(context, lights[k]->serial, frame.shadow, i, maps[k], lights[k]->occlusion);
         });
         const auto failed = std::find_if(of_lights.begin(), of_lights.end(), [](const auto& result) { return !result; });
         if (failed != of_lights.end()) return *failed;
