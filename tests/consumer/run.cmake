@@ -35,7 +35,8 @@ set(optimisation "")
 if(WAY STREQUAL "add_subdirectory")  # which compiles most
     set(optimisation -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
 endif()
-run(${CMAKE_COMMAND} -S ${here} -B ${WORK}/build -G Ninja -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM} -DCMAKE_CXX_COMPILER=${COMPILER} ${optimisation}
+run(${CMAKE_COMMAND} -S ${here} -B ${WORK}/build -G Ninja -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM} -DCMAKE_CXX_COMPILER=${COMPILER}
+    ${optimisation}
     -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DWAY=${WAY} "-DCOMPONENTS=${COMPONENTS}" -DCMAKE_PREFIX_PATH=${prefix}
     -DHALFLIT_SOURCE=${SOURCE} -DHALFLIT_KERNEL_SETS=scalar)
 file(READ ${WORK}/build/compile_commands.json commands)
