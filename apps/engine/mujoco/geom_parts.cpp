@@ -65,7 +65,7 @@ Result<void> check_geom(const Geom& geom, int index, const ModelMeshes& n) {
     const auto [name, found, count] = [&]() -> std::tuple<const char*, int, int> {
         switch (geom.type) {
             case kPlane:
-                return {"dataid", geom.dataid, n.models - n.planes};
+                return {"dataid", geom.dataid, static_cast<int>(n.planes.size())};
             case kHField:
                 return {"dataid", geom.dataid, n.skins - n.hfields};
             case kMesh:
@@ -87,7 +87,7 @@ std::vector<Part> parts_of(const Geom& g, const ModelMeshes& n, const Scene& sce
     const Vec3f s = g.size;
     switch (g.type) {
         case kPlane:
-            if (g.dataid >= 0) return {{.mesh = n.planes + g.dataid, .mirrors = mirrors}};
+            if (g.dataid >= 0) return {{.mesh = n.planes[static_cast<std::size_t>(g.dataid)], .mirrors = mirrors}};
             return {{static_cast<int>(Shape::plane), {s.x, s.y, 1}, 0, mirrors}};
         case kHField:
             if (g.dataid < 0) return {};

@@ -19,7 +19,7 @@ struct Part {
 /// Fails (bad_input) for a mesh that is not there.
 [[nodiscard]] Result<void> check_geom(const Geom& geom, int index, const ModelMeshes& numbers);
 
-/// The meshes of a geom, whose indices are in range; none for a type that nothing is drawn for. mirrors: it is the mirror.
+/// The meshes of a geom, whose indices are in range; empty for types that are not drawn. mirrors: it is the mirror.
 [[nodiscard]] std::vector<Part> parts_of(const Geom& geom, const ModelMeshes& numbers, const Scene& scene, bool mirrors);
 
 /// cubes: of each texture of the model, whether it is a cube. behind: the geom is a plane that is seen from behind.

@@ -38,11 +38,11 @@ public:
     [[nodiscard]] Mesh take() { return std::move(mesh_); }
 
 private:
-    using Key = std::array<float, 8>;
+    using Key = std::array<std::uint32_t, 8>;  // bits, since NaN is not equal to itself
     struct Hash {
         std::size_t operator()(const Key& key) const {
             std::uint64_t h = 0;
-            for (const float x : key) h = (h ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+            for (const std::uint32_t bits : key) h = (h ^ bits) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
             return static_cast<std::size_t>(h);
         }
     };
@@ -50,7 +50,9 @@ private:
     std::uint32_t index_of(const Corner& corner) {
         const auto [p, n, uv] = corner;
         // + 0 makes -0 to 0, which is equal and has other bits.
-        const Key key{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f, n.x + 0.0f, n.y + 0.0f, n.z + 0.0f, uv.x + 0.0f, uv.y + 0.0f};
+        Key key;
+        std::size_t k = 0;
+        for (const float x : {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y}) key[k++] = std::bit_cast<std::uint32_t>(x + 0.0f);
         const auto [at, is_new] = found_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
         if (is_new) {
             mesh_.positions.push_back(p);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace halflit::engine::mujoco {
@@ -33,14 +34,20 @@ struct CountRow {
     std::int32_t least = 0;
 };
 
+struct NumberRow {
+    const char* name;
+    double value;
+};
+
 struct ArrayRow {
     const char* name;
     const void* array;
     std::uint64_t count;
 };
 
-/// Slices, stacks, quads: 250 make some hundred thousand triangles a shape, as none can be told from.
+/// Slices, stacks, quads. At 250, a shape has some 100,000 triangles; more cannot be seen.
 constexpr int kFinest = 250;
+constexpr float kWidestLine = 100;                             // pixels
 constexpr int kLeastShadowMap = 4, kLargestShadowMap = 16384;  // texels on a side, if there are any
 
 }  // namespace
@@ -86,6 +93,17 @@ Result<void> check_model(const Model& model) {
     for (const CountRow& row : fineness)
         if (row.count < row.least || row.count > kFinest)
             return fail(ErrorCode::bad_input, fmt::format("{} is {}, expected {} to {}", row.name, row.count, row.least, kFinest));
+    const auto sum = [](const float* color) { return static_cast<double>(color[0] + color[1] + color[2] + color[3]); };
+    const NumberRow numbers[] = {
+#define NUMBER(type, name, value) {#name, static_cast<double>(model.name)},
+#include "apps/engine/mujoco/model_members.def"
+        {"fog_rgba's sum", sum(model.fog_rgba)},
+        {"haze_rgba's sum", sum(model.haze_rgba)},
+    };
+    for (const NumberRow& row : numbers)
+        if (!std::isfinite(row.value)) return fail(ErrorCode::bad_input, fmt::format("{} is {}, expected a number", row.name, row.value));
+    if (model.linewidth < 0 || model.linewidth > kWidestLine)
+        return fail(ErrorCode::bad_input, fmt::format("linewidth is {}, expected 0 to {}", model.linewidth, kWidestLine));
     if (model.shadowsize != 0 && (model.shadowsize < kLeastShadowMap || model.shadowsize > kLargestShadowMap))
         return fail(ErrorCode::bad_input,
                     fmt::format("shadowsize is {}, expected 0, or {} to {}", model.shadowsize, kLeastShadowMap, kLargestShadowMap));

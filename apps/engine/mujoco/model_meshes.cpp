@@ -6,13 +6,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace halflit::engine::mujoco {
 namespace {
 
-constexpr int kPlaneGrid = 200;        // lines of a plane's grid at most
-constexpr double kLeast = 1e-15;       // mjMINVAL
-constexpr float kFlatNormal = 1e-10f;  // a triangle of a smaller normal has +z
+constexpr int kPlaneGrid = 200;                                     // lines of a plane's grid at most
+constexpr std::int64_t kMostCorners = std::int64_t{1} << 26;        // of all triangles, each vertex counted where it is used
+constexpr std::int64_t kMostFlexTriangles = std::int64_t{1} << 22;  // which no array of the model stands behind
+constexpr double kLeast = 1e-15;                                    // mjMINVAL
+constexpr float kFlatNormal = 1e-10f;                               // a triangle of a smaller normal has +z
+
+/// Takes corners from what a model may still have.
+Result<void> take(std::int64_t& left, std::int64_t corners) {
+    left = corners <= left ? left - corners : -1;
+    if (left >= 0) return {};
+    return fail(ErrorCode::limit, fmt::format("the model has more than {} corners of triangles", kMostCorners));
+}
 
 Vec3f vec3(const float* v) { return {v[0], v[1], v[2]}; }
 
@@ -47,8 +57,7 @@ std::vector<float> grid_lines(const Model& model, int geom, int axis) {
     return lines;
 }
 
-Mesh plane_mesh(const Model& model, int geom) {
-    const std::vector<float> x = grid_lines(model, geom, 0), y = grid_lines(model, geom, 1);
+Mesh plane_mesh(const std::vector<float>& x, const std::vector<float>& y) {
     const auto corner = [&](std::size_t i, std::size_t j) { return Corner{{x[i], y[j], 0}, {0, 0, 1}}; };
     MeshBuilder builder;
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
@@ -84,7 +93,7 @@ Result<void> add_face(MeshBuilder& builder, const MeshArrays& of, const std::int
 }
 
 /// A mesh and its hull, which is empty where it has none.
-Result<void> add_mesh(const Model& model, int i, std::vector<Mesh>& to) {
+Result<void> add_mesh(const Model& model, int i, std::int64_t& left, std::vector<Mesh>& to) {
     const std::string what = fmt::format("mesh {}", i);
     const std::int64_t vertex = model.mesh_vertadr[i], face = model.mesh_faceadr[i], faces = model.mesh_facenum[i];
     const std::int64_t normal = model.mesh_normaladr != nullptr ? model.mesh_normaladr[i] : vertex;
@@ -102,6 +111,7 @@ Result<void> add_mesh(const Model& model, int i, std::vector<Mesh>& to) {
                             model.nmeshnormal - normal,
                             uv >= 0 ? model.nmeshtexcoord - uv : 0};
     const auto corners = [&](const std::int32_t* own, std::int64_t f) { return (own != nullptr ? own : model.mesh_face) + 3 * f; };
+    if (auto ok = take(left, 3 * faces); !ok) return ok;
     MeshBuilder surface(uv >= 0), hull(uv >= 0);
     for (std::int64_t f = face; f < face + faces; ++f)
         if (auto ok = add_face(surface, arrays, corners(nullptr, f), corners(model.mesh_facenormal, f), corners(model.mesh_facetexcoord, f),
@@ -116,6 +126,7 @@ Result<void> add_mesh(const Model& model, int i, std::vector<Mesh>& to) {
         const std::int64_t first = graph + 2 + 3 * vertices + 3 * hull_faces;
         if (vertices < 0 || hull_faces < 0) return fail(ErrorCode::bad_input, what + ": convex hull: a negative count");
         if (auto ok = check_range(first, 3 * hull_faces, size, what + ": convex hull"); !ok) return ok;
+        if (auto ok = take(left, 3 * hull_faces); !ok) return ok;
         // Hulls of meshes with texture coordinates of their own indices have none.
         MeshArrays of_hull = arrays;
         if (model.mesh_facetexcoord != nullptr) of_hull.uv = nullptr, hull = MeshBuilder();
@@ -129,13 +140,14 @@ Result<void> add_mesh(const Model& model, int i, std::vector<Mesh>& to) {
     return {};
 }
 
-Result<Mesh> hfield_mesh(const Model& model, int i) {
+Result<Mesh> hfield_mesh(const Model& model, int i, std::int64_t& left) {
     const std::int64_t rows = model.hfield_nrow[i], columns = model.hfield_ncol[i];
     const std::string what = fmt::format("height field {}", i);
     if (rows < 2 || columns < 2 || rows > 32768 || columns > 32768)
         return fail(ErrorCode::bad_input, what + ": expected 2 to 32768 rows and columns");
     if (auto ok = check_range(model.hfield_adr[i], rows * columns, static_cast<std::uint64_t>(model.nhfielddata), what); !ok)
         return tl::unexpected<Error>(ok.error());
+    if (auto ok = take(left, 6 * (rows * columns + model.numquads * model.numquads)); !ok) return tl::unexpected<Error>(ok.error());
     const float* data = model.hfield_data + model.hfield_adr[i];
     float size[4];
     for (int k = 0; k < 4; ++k) size[k] = static_cast<float>(model.hfield_size[4 * i + k]);
@@ -181,7 +193,7 @@ Mesh soft_mesh(std::int64_t count) {
     return mesh;
 }
 
-Result<void> add_skin(const Model& model, int i, ModelMeshes& to) {
+Result<void> add_skin(const Model& model, int i, std::int64_t& left, ModelMeshes& to) {
     const std::string what = fmt::format("skin {}", i);
     const std::int64_t count = model.skin_vertnum[i], face = model.skin_faceadr[i], faces = model.skin_facenum[i],
                        uv = model.skin_texcoordadr[i];
@@ -191,6 +203,7 @@ Result<void> add_skin(const Model& model, int i, ModelMeshes& to) {
     if (uv >= 0)
         if (auto ok = check_range(uv, count, static_cast<std::uint64_t>(model.nskintexvert), what + ": texture coordinates"); !ok)
             return ok;
+    if (auto ok = take(left, count + 3 * faces); !ok) return ok;
     Mesh mesh = soft_mesh(count);
     for (const std::int32_t* index = model.skin_face + 3 * face; index < model.skin_face + 3 * (face + faces); ++index) {
         if (*index < 0 || *index >= count) return fail(ErrorCode::bad_input, what + ": a face has an index out of range");
@@ -199,7 +212,7 @@ Result<void> add_skin(const Model& model, int i, ModelMeshes& to) {
     if (uv >= 0)
         for (std::int64_t k = 0; k < count; ++k)
             mesh.uv0.push_back({model.skin_texcoord[2 * (uv + k)], model.skin_texcoord[2 * (uv + k) + 1]});
-    to.soft.push_back({model.skin_vertadr[i], count, uv >= 0});
+    to.soft.push_back({model.skin_vertadr[i], count});
     to.meshes.push_back(std::move(mesh));
     return {};
 }
@@ -208,10 +221,12 @@ Result<void> add_flexes(const Model& model, ModelMeshes& to) {
     std::int64_t first = 0;
     for (int i = 0; i < model.nflex; ++i) {
         const std::int64_t count = model.flex_facenum[i];
-        if (count < 0 || count > (std::int64_t{1} << 26)) return fail(ErrorCode::bad_input, fmt::format("flex {}: {} triangles", i, count));
+        if (count < 0) return fail(ErrorCode::bad_input, fmt::format("flex {}: {} triangles", i, count));
+        if (count > kMostFlexTriangles - first)
+            return fail(ErrorCode::limit, fmt::format("the flexes have more than {} triangles", kMostFlexTriangles));
         Mesh mesh = soft_mesh(3 * count);
         for (std::uint32_t k = 0; k < 3 * count; ++k) mesh.indices.push_back(k);
-        to.soft.push_back({first, count, false});
+        to.soft.push_back({first, count});
         to.meshes.push_back(std::move(mesh));
         first += count;
     }
@@ -226,25 +241,35 @@ Result<ModelMeshes> make_meshes(const Model& model) {
     const Vec3f haze{model.haze_rgba[0], model.haze_rgba[1], model.haze_rgba[2]};
     const Fineness fineness{model.numslices, model.numstacks, model.numquads, model.haze, haze};
     for (int shape = 0; shape < static_cast<int>(Shape::count); ++shape) made.meshes.push_back(make_shape(Shape{shape}, fineness));
-    made.planes = here();
+    std::int64_t left = kMostCorners;
+    std::map<std::pair<std::vector<float>, std::vector<float>>, int> grids;
     for (int i = 0; i < model.ngeom; ++i) {
         if (model.geom_type[i] != kPlane) continue;
         if (model.geom_matid[i] >= model.nmat)
             return fail(ErrorCode::bad_input, fmt::format("geom_matid: {} of {} materials", model.geom_matid[i], model.nmat));
-        made.meshes.push_back(plane_mesh(model, i));
+        std::vector<float> lines[2] = {grid_lines(model, i, 0), grid_lines(model, i, 1)};
+        for (const std::vector<float>& along : lines)
+            if (!std::all_of(along.begin(), along.end(), [](float at) { return std::isfinite(at); }))
+                return fail(ErrorCode::bad_input, fmt::format("geom {}: the grid of the plane is not finite", i));
+        const auto [grid, is_new] = grids.try_emplace({std::move(lines[0]), std::move(lines[1])}, here());
+        const auto& [x, y] = grid->first;
+        made.planes.push_back(grid->second);
+        if (!is_new) continue;
+        if (auto ok = take(left, 6 * static_cast<std::int64_t>(x.size() * y.size())); !ok) return tl::unexpected<Error>(ok.error());
+        made.meshes.push_back(plane_mesh(x, y));
     }
     made.models = here();
     for (int i = 0; i < model.nmesh; ++i)
-        if (auto ok = add_mesh(model, i, made.meshes); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = add_mesh(model, i, left, made.meshes); !ok) return tl::unexpected<Error>(ok.error());
     made.hfields = here();
     for (int i = 0; i < model.nhfield; ++i) {
-        auto mesh = hfield_mesh(model, i);
+        auto mesh = hfield_mesh(model, i, left);
         if (!mesh) return tl::unexpected<Error>(mesh.error());
         made.meshes.push_back(std::move(*mesh));
     }
     made.skins = here();
     for (int i = 0; i < model.nskin; ++i)
-        if (auto ok = add_skin(model, i, made); !ok) return tl::unexpected<Error>(ok.error());
+        if (auto ok = add_skin(model, i, left, made); !ok) return tl::unexpected<Error>(ok.error());
     made.flexes = here();
     if (auto ok = add_flexes(model, made); !ok) return tl::unexpected<Error>(ok.error());
     made.end = here();
@@ -259,8 +284,10 @@ Result<std::vector<CodeTexture>> make_textures(const Model& model, const Look& l
         const int width = model.tex_width[i], height = model.tex_height[i],
                   channels = model.tex_nchannel != nullptr ? model.tex_nchannel[i] : 3;
         const bool cube = model.tex_type[i] != 0, six = cube && width != height;
-        if (width < 1 || width > kLargest || height < 1 || height > 6 * kLargest || channels < 1 || channels > 4)
+        if (width < 1 || height < 1 || channels < 1 || channels > 4)
             return fail(ErrorCode::bad_input, fmt::format("{}: {} x {} texels of {} channels", what, width, height, channels));
+        if (width > kLargest || height > kLargest * (six ? 6 : 1))
+            return fail(ErrorCode::limit, fmt::format("{}: {} x {} texels, expected at most {}", what, width, height, kLargest));
         const std::int64_t rows = cube ? std::int64_t{width} * (six ? 6 : 1) : height, texels = rows * width;
         if (auto ok = check_range(model.tex_adr[i], texels * channels, model.ntexdata, what); !ok) return tl::unexpected<Error>(ok.error());
         const std::uint8_t* from = model.tex_data + model.tex_adr[i];

@@ -12,21 +12,21 @@ namespace halflit::engine::mujoco {
 /// Vertices of the scene's arrays that a mesh has, and which it gets anew for each picture.
 struct SoftMesh {
     std::int64_t first = 0, count = 0;
-    bool has_uv = false;
 };
 
-/// Meshes in this order: those of Shape; one for each plane of the model; two for each mesh, the second one its hull; height fields; skins;
+/// Meshes in this order: those of Shape; one for each grid of planes; two for each mesh, the second one its hull; height fields; skins;
 /// flexes. Numbers are indices of the first of a kind.
 struct ModelMeshes {
     std::vector<Mesh> meshes;
-    int planes = 0, models = 0, hfields = 0, skins = 0, flexes = 0, end = 0;
+    std::vector<int> planes;  ///< of each plane of the model, its mesh
+    int models = 0, hfields = 0, skins = 0, flexes = 0, end = 0;
     std::vector<SoftMesh> soft;  ///< skins, then flexes, whose `first` counts triangles
 };
 
-/// Fails (bad_input) for an index out of range. Requires: check_model() passed.
+/// Fails (bad_input) for an index out of range, (limit) for too many vertices. Requires: check_model() passed.
 [[nodiscard]] Result<ModelMeshes> make_meshes(const Model& model);
 
-/// Fails (bad_input) for a texture beyond the model's bytes, and (limit) for a side above 16384.
+/// Fails (bad_input) for a texture beyond the model's bytes, (limit) for a side above 16384.
 [[nodiscard]] Result<std::vector<CodeTexture>> make_textures(const Model& model, const Look& look);
 
 }  // namespace halflit::engine::mujoco
