@@ -63,6 +63,15 @@ TEST_CASE("mujoco frame: transparent geoms come from front to back, and planes l
     CHECK(ids(made, FixedStage::transparent) == std::vector<std::uint32_t>{5, 4, 2, 1});
 }
 
+TEST_CASE("mujoco frame: a distance that is no number comes among the planes", "[engine][mujoco]") {
+    const Layout at;
+    RawScene raw;
+    raw.set(raw.add(kBox, {0, 3e38f, 3e38f}, {3e38f, 3e38f, 3e38f}, {1, 1, 1, 0.5f}), at.geom_objtype, 0);  // infinity - infinity
+    raw.add(kSphere, {0, 2, 0}, {1, 1, 1}, {1, 1, 1, 0.5f});
+    raw.add(kSphere, {0, 1, 0}, {1, 1, 1}, {1, 1, 1, 0.5f});
+    CHECK(ids(frame_of(raw), FixedStage::transparent) == std::vector<std::uint32_t>{3, 2, 1});
+}
+
 TEST_CASE("mujoco frame: the sky and its haze come after opaque geoms and before transparent ones", "[engine][mujoco]") {
     const Layout at;
     RawScene raw;
@@ -240,14 +249,15 @@ TEST_CASE("mujoco frame: what a scene must not say is one line of error", "[engi
         CHECK(error_of(raw).find(row.words) == 0);
         CHECK(error_of(raw).find('\n') == std::string::npos);
     }
-    for (const int place : {at.geom_pos, at.geom_mat, at.geom_scale, at.geom_rgba, at.geom_emission, at.geom_reflectance})
+    for (const int place :
+         {at.geom_pos, at.geom_mat, at.geom_scale, at.geom_rgba, at.geom_emission, at.geom_reflectance, at.geom_modelrbound})
         for (const float value : {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()}) {
             RawScene raw;
             raw.set(raw.add(kBox, {0, 0, 0}, {1, 1, 1}), place, value);
             CHECK(error_of(raw) == "geom 0: a number is not finite");
         }
     // Numbers of types that nothing is drawn for, and of meshes that a geom does without.
-    for (const std::int32_t type : {-1, 9, 105, 999, 1 << 30}) {
+    for (const std::int32_t type : {-5, -2, -1, 9, 105, 999, 1000, 1001, 1003, 1 << 30}) {
         RawScene raw;
         raw.add(type, {0, 0, 0}, {1, 1, 1});
         CHECK(frame_of(raw).frame.items.empty());

@@ -32,9 +32,8 @@ bool is_behind(Vec3f from, Vec3f point, Vec3f normal) { return dot(from - point,
 /// A sphere around the geom that holds it, as MuJoCo estimates it.
 float bound_of(const Geom& g) {
     const Vec3f s = g.size;
-    switch (g.objtype == kModelGeom ? -1 : g.type) {
-        case -1:
-            return g.rbound;
+    if (g.objtype == kModelGeom) return g.rbound;
+    switch (g.type) {
         case kSphere:
             return s.x;
         case kCapsule:
@@ -80,7 +79,11 @@ public:
         if (request_.pass == Pass::color) add_lights();
         add_opaque();
         if (flags_[kSkybox] && model_.sky >= 0) add_sky();
-        if (request_.pass == Pass::color) add_transparent();
+        if (request_.pass == Pass::color) {
+            const std::size_t opaque = made_.frame.items.size();
+            add_transparent();
+            made_.has_segments = mirror_ < 0 && made_.frame.items.size() == opaque;
+        }
         if (flags_[kFog]) {
             made_.frame.fog_start = model_.fog_start / room_.unit(), made_.frame.fog_end = model_.fog_end / room_.unit();
             made_.frame.fog_color = model_.fog_color;
@@ -171,7 +174,9 @@ private:
         std::vector<std::pair<float, std::size_t>> order;
         for (std::size_t i = 0; i < made_.geoms.size(); ++i) {
             const Geom& g = made_.geoms[i];
-            if (is_transparent(g)) order.emplace_back(g.type == kPlane ? 1e10f : length(g.position - head_) - bound_of(g), i);
+            if (!is_transparent(g)) continue;
+            const float key = length(g.position - head_) - bound_of(g);
+            order.emplace_back(g.type == kPlane || std::isnan(key) ? 1e10f : key, i);
         }
         std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         for (const auto& [distance, i] : order) add_items(i, FixedStage::transparent);

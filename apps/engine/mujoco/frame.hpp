@@ -34,7 +34,8 @@ struct FrameRequest {
 
 struct SceneFrame {
     FixedFrame frame;                 ///< in the model's space and unit
-    float near_z = 0.1f, far_z = 50;  ///< of the camera, in the unit of its room
+    float near_z = 0.1f, far_z = 50;  ///< of the camera, in the unit of its room, which Scene::translate, rotate and scale lead to
+    bool has_segments = false;        ///< its planes are those of the segment pass
     std::vector<Geom> geoms;          ///< FixedItem::id is an index + 1
 };
 

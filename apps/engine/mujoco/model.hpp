@@ -35,7 +35,8 @@ struct Model {
     Layout layout;
 };
 
-/// Fails (bad input) for a negative count, a null array of which something is read, and shapes that are too fine.
+/// Fails (bad input) for a negative count, a null array of which something is read, shapes that are too fine, and numbers that are not
+/// finite.
 [[nodiscard]] Result<void> check_model(const Model& model);
 
 /// `count` numbers from `begin` on of an array of `size`; fails (bad input) if they are not all in it. what: "mesh 3: vertices".
@@ -45,8 +46,13 @@ struct Model {
 enum Flag { kShadow, kWireframe, kReflection, kAdditive, kSkybox, kFog, kHaze, kSegment, kIdColor, kCullFace, kFlagCount };
 inline constexpr std::uint8_t kDefaultFlags[kFlagCount] = {1, 0, 1, 0, 1, 0, 1, 0, 0, 1};
 
-/// mjtGeom, as far as versions agree; the last four have numbers of their own here. SDF is drawn as a mesh.
+/// mjtGeom, as far as versions agree; others have numbers below 0 here. SDF is drawn as a mesh.
 enum GeomType {
+    kSkin = -5,
+    kFlex,
+    kLineBox,
+    kTriangle,
+    kNotDrawn,
     kPlane,
     kHField,
     kSphere,
@@ -59,11 +65,7 @@ enum GeomType {
     kArrow = 100,
     kArrow1,
     kArrow2,
-    kLine,
-    kSkin = 1000,
-    kFlex,
-    kLineBox,
-    kTriangle
+    kLine
 };
 
 /// What mjv_updateScene() has left. Memory of the caller; no number in it is trusted.

@@ -33,6 +33,16 @@ private:
     const std::byte* at_;
 };
 
+/// A number of mjtGeom as a GeomType.
+std::int32_t type_of(const Layout& layout, std::int32_t raw) {
+    if (raw < 0) return kNotDrawn;
+    const std::pair<std::int32_t, GeomType> own[] = {
+        {layout.type_skin, kSkin}, {layout.type_flex, kFlex}, {layout.type_linebox, kLineBox}, {layout.type_triangle, kTriangle}};
+    for (const auto& [number, type] : own)
+        if (raw == number) return type;
+    return raw <= kSdf || (raw >= kArrow && raw <= kLine) ? raw : kNotDrawn;
+}
+
 bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// A light's type: a byte that tells directional ones, or mjtLightType.
@@ -49,7 +59,7 @@ Vec3d unit(Vec3d v) { return v * (1.0 / length(v)); }
 Result<Geom> read_geom(const Layout& layout, const Scene& scene, int index, std::span<const TextureUse> materials, int texture_count) {
     const Record from(scene.geoms, layout.geom_size, index);
     const auto mat = from.get(layout.geom_mat, std::array<float, 9>{});
-    Geom geom{.type = from.integer(layout.geom_type),
+    Geom geom{.type = type_of(layout, from.integer(layout.geom_type)),
               .dataid = from.integer(layout.geom_dataid),
               .objtype = from.integer(layout.geom_objtype),
               .objid = from.integer(layout.geom_objid),
@@ -65,13 +75,6 @@ Result<Geom> read_geom(const Layout& layout, const Scene& scene, int index, std:
               .shininess = from.number(layout.geom_shininess),
               .reflectance = from.number(layout.geom_reflectance),
               .rbound = from.number(layout.geom_modelrbound)};
-    const std::pair<std::int32_t, GeomType> own[] = {
-        {layout.type_skin, kSkin}, {layout.type_flex, kFlex}, {layout.type_linebox, kLineBox}, {layout.type_triangle, kTriangle}};
-    for (const auto& [number, type] : own)
-        if (number >= 0 && geom.type == number) {
-            geom.type = type;
-            break;
-        }
     const auto wrong = [&](const char* name, std::int32_t found, std::size_t count) {
         return fail(ErrorCode::bad_input, fmt::format("geom {}: {} is {}, the model has {}", index, name, found, count));
     };
@@ -88,7 +91,7 @@ Result<Geom> read_geom(const Layout& layout, const Scene& scene, int index, std:
     const Vec4f c = geom.rgba;
     if (!is_finite(geom.size) || !is_finite(geom.position) || !is_finite(geom.axes[0]) || !is_finite(geom.axes[1]) ||
         !is_finite(geom.axes[2]) || !is_finite({c.x, c.y, c.z}) || !std::isfinite(c.w) ||
-        !is_finite({geom.emission, geom.specular, geom.shininess}) || !std::isfinite(geom.reflectance))
+        !is_finite({geom.emission, geom.specular, geom.shininess}) || !is_finite({geom.reflectance, geom.rbound, 0}))
         return fail(ErrorCode::bad_input, fmt::format("geom {}: a number is not finite", index));
     return geom;
 }

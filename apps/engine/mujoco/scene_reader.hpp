@@ -4,7 +4,9 @@
 #include "apps/engine/mujoco/model.hpp"
 #include "halflit/math.hpp"
 
-#include <vector>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace halflit::engine::mujoco {
 
