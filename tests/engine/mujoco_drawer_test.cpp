@@ -108,6 +108,10 @@ TEST_CASE("mujoco drawer: colors of segids are their digits, or numbers that are
     raw.set(0, at.geom_segid, 0x030201);
     draw(by, picture);
     for (std::size_t k = 0; k < 3; ++k) CHECK(got.rgb[3 * kMiddle + k] == k + 1 + (k == 0));
+    raw.set(0, at.geom_segid, 0x7fffffff);  // beyond an int with the 10 that is added
+    flags[kIdColor] = 0;
+    draw(by, picture);
+    CHECK(got.segid[kMiddle] == 0x7fffffff);
     raw.set(0, at.geom_segid, -1);
     draw(by, picture);
     CHECK(got.rgb[3 * kMiddle] == 0);
@@ -227,6 +231,70 @@ TEST_CASE("mujoco drawer: many pictures at once are those of one at a time", "[e
         pictures[7].height = -1;
         CHECK(parallel.render(pictures).error().message == "picture: 0 x 25 pixels");
     }
+}
+
+TEST_CASE("mujoco drawer: a host's loop that leaves pictures out is an error, and its numbers do not matter", "[engine][mujoco]") {
+    RawScene raw = box_scene();
+    const Scene scene = raw.scene();
+    Execution execution;
+    execution.threads = 2;
+    std::vector<Planes> many(3);
+    std::vector<Picture> pictures;
+    for (Planes& planes : many) pictures.push_back(planes.picture(scene));
+    struct Row {
+        std::vector<int> calls;
+        const char* message;
+    };
+    for (const Row& row :
+         {Row{{0, 1}, ""}, Row{{7, -1, 7}, ""}, Row{{1}, ""}, Row{{}, "parallel_for returned before every item was done"}}) {
+        execution.parallel_for = [&](int, const std::function<void(int)>& body) {
+            for (const int i : row.calls) body(i);
+        };
+        auto by = Drawer::make({}, *look_of("2.2.2"), Execution{});
+        REQUIRE(by);
+        by->set_execution(execution);
+        const auto done = by->render(pictures);
+        CHECK((done ? "" : done.error().message) == row.message);
+        if (done) CHECK(many[2].segid[kMiddle] == 0);
+    }
+}
+
+TEST_CASE("mujoco drawer: ids are the same with colors and without, in mirrors and behind glass", "[engine][mujoco]") {
+    const Layout at;
+    for (const bool mirrors : {true, false}) {
+        INFO("mirrors " << mirrors);
+        RawScene raw = box_scene();
+        // The first of two that are in one plane is a mirror or transparent, which the colors' pass draws later.
+        raw.set(0, at.geom_reflectance, mirrors ? 0.5f : 0.0f);
+        if (!mirrors) raw.set(0, at.geom_rgba, Vec4f{1, 1, 1, 0.5f});
+        raw.add(kBox, {0, 0, 0}, {1, 1, 1});
+        const Scene scene = raw.scene();
+        Planes with_rgb, alone;
+        Drawer by = drawer();
+        draw(by, with_rgb.picture(scene));
+        Picture picture = alone.picture(scene);
+        picture.rgb = nullptr;
+        draw(by, picture);
+        CHECK(alone.segid[kMiddle] == 1);
+        CHECK(with_rgb.segid == alone.segid);
+        CHECK(with_rgb.object == alone.object);
+        CHECK(with_rgb.depth == alone.depth);
+    }
+}
+
+TEST_CASE("mujoco drawer: a time limit that is over before a picture begins ends the call", "[engine][mujoco]") {
+    RawScene raw = box_scene();
+    const Scene scene = raw.scene();
+    Execution execution;
+    execution.time_limit_s = 1e-7;
+    Drawer by = drawer();
+    by.set_execution(execution);
+    std::vector<Planes> many(3);
+    std::vector<Picture> pictures;
+    for (Planes& planes : many) pictures.push_back(planes.picture(scene));
+    const auto done = by.render(pictures);
+    REQUIRE(!done);
+    CHECK(done.error().code == ErrorCode::limit);
 }
 
 TEST_CASE("mujoco drawer: what a picture must not say is one line of error", "[engine][mujoco]") {

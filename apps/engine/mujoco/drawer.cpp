@@ -14,11 +14,12 @@
 namespace halflit::engine::mujoco {
 namespace {
 
+constexpr double kAlmostAll = 1 - 1e-9;  // of a time limit: 0 means none
+
 /// The digits of a number in a base, mirrored at the point: numbers that follow each other are far apart.
-double radical_inverse(std::int32_t number, int base) {
+double radical_inverse(std::uint32_t number, std::uint32_t base) {
     double sum = 0, place = 1.0 / base;
-    for (auto n = static_cast<std::uint32_t>(std::max(0, number)); n > 0; n /= static_cast<std::uint32_t>(base), place /= base)
-        sum += place * (n % static_cast<std::uint32_t>(base));
+    for (; number > 0; number /= base, place /= base) sum += place * (number % base);
     return sum;
 }
 
@@ -29,7 +30,7 @@ void put_color(std::int32_t segid, bool by_number, std::uint8_t* to) {
         if (by_number)
             to[k] = static_cast<std::uint8_t>(code >> 8 * k);
         else
-            to[k] = static_cast<std::uint8_t>(255 * (0.1 + 0.8 * radical_inverse(segid + 10, k == 0 ? 2 : k == 1 ? 3 : 5)) + 0.5);
+            to[k] = static_cast<std::uint8_t>(255 * (0.1 + 0.8 * radical_inverse(code + 9, k == 0 ? 2 : k == 1 ? 3 : 5)) + 0.5);
     }
 }
 
@@ -108,7 +109,8 @@ Result<void> Drawer::move_vertices(Worker& by, const Scene& scene) const {
     return {};
 }
 
-Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& execution) const {
+Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& execution,
+                          std::chrono::steady_clock::time_point start) const {
     const FpEnvironment environment;
     const Scene& scene = *picture.scene;
     if (picture.width < 1 || picture.height < 1 || std::int64_t{picture.width} * picture.height > std::int64_t{1} << 28)
@@ -131,31 +133,38 @@ Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& e
     if (auto ok = move_vertices(by, scene); !ok) return ok;
     const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
     if (with_ids) by.ids.resize(pixels);
-    const auto pass = [&](Pass of, bool with_rgb, bool with_depth, bool ids) -> Result<void> {
-        if (!with_rgb && !with_depth && !ids) return {};
+    // Planes that are not drawn yet. Those of the segmentation pass, and the depth of a picture of one sample, may come with the colors.
+    bool depth = picture.depth != nullptr, ids = with_ids;
+    const auto pass = [&](Pass of, bool with_rgb) -> Result<void> {
         request.pass = of;
         const auto made = make_frame(model_, scene, request);
         if (!made) return tl::unexpected<Error>(made.error());
+        const bool segments = of == Pass::segment || (!of_color_pass && made->has_segments);
+        const bool takes_depth = depth && (of_color_pass ? of == Pass::depth || picture.samples == 1 : segments);
         const FixedTarget target{.width = picture.width,
                                  .height = picture.height,
                                  .samples = with_rgb ? picture.samples : 1,
                                  .bottom_up = picture.bottom_up,
                                  .rgb = with_rgb ? picture.rgb : nullptr,
-                                 .depth = with_depth ? picture.depth : nullptr,
-                                 .ids = ids ? by.ids.data() : nullptr,
+                                 .depth = takes_depth ? picture.depth : nullptr,
+                                 .ids = ids && segments ? by.ids.data() : nullptr,
                                  .transparent_planes = true,
                                  .backdrop_depth = with_rgb && of_color_pass};
-        if (auto ok = by.renderer.render(made->frame, target, execution); !ok) return ok;
-        if (ids) show_ids(picture, *made, by.ids, as_colors, flags[kIdColor] != 0);
-        if (with_depth) convert_depth(picture, *made, pixels);
+        Execution rest = execution;
+        if (rest.time_limit_s > 0)
+            rest.time_limit_s -=
+                std::min(rest.time_limit_s * kAlmostAll, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        if (auto ok = by.renderer.render(made->frame, target, rest); !ok) return ok;
+        if (target.ids != nullptr) show_ids(picture, *made, by.ids, as_colors, flags[kIdColor] != 0);
+        if (takes_depth) convert_depth(picture, *made, pixels);
+        depth &= !takes_depth, ids &= !segments;
         return {};
     };
-    // The planes of the segmentation pass, and the depth of a picture of one sample, come with the colors.
-    const bool joins_depth = colors && (!of_color_pass || picture.samples == 1), joins_ids = colors && !of_color_pass;
-    const bool with_depth = picture.depth != nullptr;
-    if (auto ok = pass(Pass::color, colors, with_depth && joins_depth, with_ids && joins_ids); !ok || (joins_depth && joins_ids)) return ok;
-    if (auto ok = pass(Pass::depth, false, of_color_pass && !joins_depth, false); !ok) return ok;
-    return pass(Pass::segment, false, with_depth && !of_color_pass && !joins_depth, with_ids && !joins_ids);
+    if (colors)
+        if (auto ok = pass(Pass::color, true); !ok) return ok;
+    if (depth && of_color_pass)
+        if (auto ok = pass(Pass::depth, false); !ok) return ok;
+    return depth || ids ? pass(Pass::segment, false) : Result<void>{};
 }
 
 Result<void> Drawer::render(std::span<const Picture> pictures) {
@@ -167,41 +176,53 @@ Result<void> Drawer::render(std::span<const Picture> pictures) {
         if (!copy) return tl::unexpected<Error>(copy.error());
         workers_.push_back(std::make_unique<Worker>(Worker{std::move(*copy), {}, {}, {}}));
     }
-    if (wanted == 1 && count <= 1) return count == 0 ? Result<void>{} : draw(*workers_[0], pictures[0], execution_);
-
+    const auto start = std::chrono::steady_clock::now();
     Execution each = execution_;
+    each.on_tile = {}, each.progress = {};
+    if (count <= 1) return count == 0 ? Result<void>{} : draw(*workers_[0], pictures[0], each, start);
+
     each.threads = std::max(1, cores / wanted);
-    each.parallel_for = {}, each.on_tile = {}, each.progress = {};
-    std::atomic<int> next{0};
+    each.parallel_for = {};
+    std::atomic<int> next{0}, tried{0};
     std::mutex mutex;
+    std::vector<Worker*> idle;
+    for (const auto& worker : workers_) idle.push_back(worker.get());
     std::pair<int, Result<void>> first{count, {}};  // the first picture that failed
-    const auto work = [&](int worker) {
-        for (int i = next++; i < count; i = next++) {
+    // The index does not count, since the loop may be the host's.
+    const auto work = [&](int) {
+        std::unique_lock lock(mutex);
+        if (idle.empty()) return;
+        Worker& by = *idle.back();
+        idle.pop_back();
+        lock.unlock();
+        for (int i = next++; i < count; i = next++, ++tried) {
             Result<void> done;
             try {
-                done = draw(*workers_[static_cast<std::size_t>(worker)], pictures[static_cast<std::size_t>(i)], each);
+                done = draw(by, pictures[static_cast<std::size_t>(i)], each, start);
             } catch (const std::bad_alloc&) {
                 done = fail(ErrorCode::limit, "out of memory");
             }
             if (done) continue;
-            const std::lock_guard lock(mutex);
+            const std::lock_guard failed(mutex);
             if (i < first.first) first = {i, std::move(done)};
             next = count;
         }
+        lock.lock();
+        idle.push_back(&by);
     };
     if (execution_.parallel_for) {
         execution_.parallel_for(wanted, work);
+        if (first.second && tried != count) return fail(ErrorCode::usage, "parallel_for returned before every item was done");
         return first.second;
     }
-    {
-        std::vector<std::jthread> others;
-        try {
-            for (int worker = 1; worker < wanted; ++worker) others.emplace_back(work, worker);
-        } catch (const std::system_error&) {
-            // Fewer threads do it too.
-        }
-        work(0);
+    std::vector<std::jthread> others;
+    try {
+        for (int worker = 1; worker < wanted; ++worker) others.emplace_back(work, worker);
+    } catch (const std::system_error&) {
+        // Fewer threads do it too.
     }
+    work(0);
+    others.clear();  // waits for them
     return first.second;
 }
 

@@ -4,6 +4,7 @@
 #include "apps/engine/mujoco/frame.hpp"
 #include "halflit/fixed_function.hpp"
 
+#include <chrono>
 #include <memory>
 #include <span>
 #include <vector>
@@ -32,7 +33,8 @@ public:
     /// Fails (bad_input) for a model that contradicts itself, (usage) for a layout that does.
     [[nodiscard]] static Result<Drawer> make(const Model& model, const Look& look, const Execution& execution);
 
-    /// Draws pictures, several at once if there are several. Fails as the first of them in the list that fails.
+    /// Draws pictures, several at once if there are several. Fails as the first of them in the list that fails, and (usage) if the host's
+    /// loop did not draw all.
     [[nodiscard]] Result<void> render(std::span<const Picture> pictures);
 
     void set_execution(const Execution& execution) { execution_ = execution; }
@@ -46,7 +48,9 @@ private:
     };
     Drawer(FrameModel model, FixedFunctionRenderer renderer, const Execution& execution);
 
-    [[nodiscard]] Result<void> draw(Worker& by, const Picture& picture, const Execution& execution) const;
+    /// execution: of the whole call, which began at `start`.
+    [[nodiscard]] Result<void> draw(Worker& by, const Picture& picture, const Execution& execution,
+                                    std::chrono::steady_clock::time_point start) const;
     [[nodiscard]] Result<void> move_vertices(Worker& by, const Scene& scene) const;
 
     FrameModel model_;
