@@ -170,6 +170,28 @@ class Pictures(unittest.TestCase):
         np.testing.assert_array_equal(found, wanted)
         self.assertGreater((draw(scene, context=context)[0] != wanted).sum(), 20)
 
+    def test_a_picture_keeps_the_model_of_its_moment(self):
+        flat = {"ntex": 1, "ntexdata": 3, "tex_type": [0], "tex_width": [1], "tex_height": [1], "tex_adr": [0]}
+        changing = model(**flat, tex_rgb=np.array([255, 0, 0], np.uint8))
+        context, scene = drawn.MjrContext(changing), Scene().shine(ambient=1.0)
+        scene.add(BOX, (1, 1, 1), (0, 0, 1), (1, 1, 1, 1), texid=0, texcoord=0)
+        rect, rgb = drawn.MjrRect(0, 0, SIZE, SIZE), np.zeros((SIZE, SIZE, 3), np.uint8)
+        drawn.mjr_render(rect, scene, context)
+        changing.tex_rgb[:] = (0, 255, 0)
+        drawn.mjr_uploadTexture(changing, context, 0)
+        for wanted in ([255, 0, 0], [0, 255, 0]):
+            drawn.mjr_readPixels(rgb, None, rect, context)
+            self.assertEqual(rgb[SIZE // 2, SIZE // 2].tolist(), wanted)
+            drawn.mjr_render(rect, scene, context)
+
+    def test_the_buffer_keeps_a_bounded_number_of_pictures(self):
+        context, scene = drawn.MjrContext(model()), Scene()
+        for i in range(200):
+            drawn.mjr_render(drawn.MjrRect(i, 0, 4, 4), scene, context)
+            drawn.mjr_render(drawn.MjrRect(-9, i, 4, 4), scene, context)
+        self.assertEqual([frame.rect[0] for frame in context._frames], list(range(136, 200)))
+        self.assertEqual(len(context._frames) + len(context._spare), 65)
+
     def test_parts_of_the_buffer(self):
         context = drawn.MjrContext(model())
         one, two = two_boxes(), Scene().shine(ambient=1.0).add(SPHERE, (3, 3, 3))

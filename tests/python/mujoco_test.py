@@ -94,6 +94,10 @@ class Installed(unittest.TestCase):
             self.assertEqual((ids.shape, ids.dtype), ((*SIZE, 2), np.int32))
             renderer.disable_segmentation_rendering()
             np.testing.assert_array_equal(renderer.render(), rgb)
+            planes = renderer.render_all()
+            self.assertEqual(list(planes), ["rgb", "depth", "segmentation"])
+            for found, wanted in zip(planes.values(), (rgb, depth, ids)):
+                np.testing.assert_array_equal(found, wanted)
         # The ray through a pixel's middle of the camera "side" meets the ball, the floor, or nothing where the sky is.
         height, width = SIZE
         rows, columns = np.mgrid[:height, :width] + 0.5

@@ -3,8 +3,9 @@ from __future__ import annotations
 
 import ctypes
 import enum
+import itertools
 import threading
-from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Set, Tuple
 
 import numpy as np
 
@@ -19,6 +20,8 @@ WINDOW, DISTANCE = _c.CONSTANTS["HALFLIT_MUJOCO_DEPTH_WINDOW"], _c.CONSTANTS["HA
 SEGMENT, COLOR = _c.CONSTANTS["HALFLIT_MUJOCO_PASS_SEGMENT"], _c.CONSTANTS["HALFLIT_MUJOCO_PASS_COLOR"]
 
 Rect = Tuple[int, int, int, int]
+#: Pictures of the buffer that are kept, each as a copy of its scene.
+_MOST_FRAMES = 64
 
 
 class mjtFramebuffer(enum.IntEnum):
@@ -90,7 +93,8 @@ class Defaults:
 class MjrContext:
     """A model's shapes and textures, and what was drawn last. They are copied at the first picture, and again after mjr_uploadTexture() and
     its like. look: the release whose pictures are made, "2.2.2", "3.3.2" or "3.3.3"; None: by the version of the module that the model is
-    from. threads: 0: all cores. Pictures are drawn when they are read, from a copy of the scene: what is not read takes no time.
+    from. threads: 0: all cores. Pictures are drawn when they are read, from a copy of the scene: what is not read takes no time. The buffer
+    holds the last 64 pictures that no later one covers.
     """
 
     def __init__(self, model: Any = None, fontscale: Any = 150, *, look: Optional[str] = None, threads: Optional[int] = None) -> None:
@@ -109,6 +113,7 @@ class MjrContext:
         self.look = look_of(Defaults.look if look is None else look, self._version)
         self._lock = threading.Lock()
         self._handle: Any = None
+        self._is_stale = True
         self._frames: List[Snapshot] = []
         self._spare: List[Snapshot] = []
         self._picture: Any = None
@@ -140,21 +145,24 @@ class MjrContext:
         }  # fmt: skip
 
     def upload(self) -> None:
-        """The model is copied again at the next picture."""
-        self._handle = None
+        """The model is copied again at the next picture. Pictures that were taken before keep the older copy."""
+        self._is_stale = True
 
     def snapshot(self, scene: Any) -> Snapshot:
         """A copy of what the scene shows now."""
         if not self.glInitialized:
             raise RuntimeError("the context has no model, or was freed")
         current = self._current()
-        if self._handle is None or current != self._made_with:
+        if self._is_stale or current != self._made_with:
             changed = {name: value for name, value in current.items() if value != self._settings[name]}
             self._handle = handle_of(self.model, self._version, self.look, self.threads, scene, changed)
-            self._made_with = current
-        return (self._spare.pop() if self._spare else Snapshot()).take(scene)
+            self._made_with, self._is_stale = current, False
+        snapshot = (self._spare.pop() if self._spare else Snapshot()).take(scene)
+        snapshot.handle = self._handle
+        return snapshot
 
     def release(self, snapshot: Snapshot) -> None:
+        snapshot.handle = None
         self._spare.append(snapshot)
 
     def picture(self, snapshot: Snapshot, **members: Any) -> Any:
@@ -166,21 +174,27 @@ class MjrContext:
             picture.put(name, value.ctypes.data if isinstance(value, np.ndarray) else value, name)
         return picture
 
-    def draw(self, pictures: Any) -> None:
-        """Draws an array of halflit_mujoco_picture, or one."""
+    def draw(self, pictures: Any, snapshots: Sequence[Snapshot]) -> None:
+        """Draws an array of halflit_mujoco_picture, or one, of these snapshots."""
+        first = 0
         with self._lock:
-            count = len(pictures) if isinstance(pictures, ctypes.Array) else 1
-            _c.call("mujoco_render", self._handle, ctypes.byref(pictures), count)
+            for handle, group in itertools.groupby(snapshots, lambda snapshot: snapshot.handle):
+                count = len(list(group))
+                _c.call("mujoco_render", handle, ctypes.byref(pictures, first * ctypes.sizeof(_c.STRUCT["halflit_mujoco_picture"])), count)
+                first += count
 
     def render(self, rect: Rect, scene: Any) -> None:
         if rect[2] <= 0 or rect[3] <= 0:
             return
-        hidden = [frame for frame in self._frames if _holds(rect, frame.rect)]
-        self._frames = [frame for frame in self._frames if frame not in hidden]
-        self._spare += hidden
         frame = self.snapshot(scene)
         frame.rect = rect
-        self._frames.append(frame)
+        shown = [other for other in self._frames if not _holds(rect, other.rect)]
+        # What ends before the first pixel is in no buffer.
+        kept = [*shown, frame][-_MOST_FRAMES:] if rect[0] + rect[2] > 0 and rect[1] + rect[3] > 0 else shown
+        for other in (*self._frames, frame):
+            if other not in kept:
+                self.release(other)
+        self._frames = kept
 
     def read(self, rect: Rect, rgb: Any, depth: Any) -> None:
         last = self._frames[-1] if self._frames else None
@@ -213,7 +227,7 @@ class MjrContext:
         picture.samples = 1 if self.offSamples <= 1 else 4
         picture.depth_unit = DISTANCE if is_reversed else WINDOW
         picture.depth_pass = SEGMENT if frame.is_segment else COLOR
-        self.draw(picture)
+        self.draw(picture, [frame])
         if is_reversed:
             near, far, is_parallel = frame.planes()
             distance = depth.astype(np.float64)

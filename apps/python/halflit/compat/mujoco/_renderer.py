@@ -28,7 +28,7 @@ def _draw(context: MjrContext, snapshots: Sequence[Snapshot], planes: Dict[str, 
         for name, array in planes.items():
             setattr(pictures[i], _POINTERS[name], array.ctypes.data + i * array.strides[0])
     if snapshots:
-        context.draw(pictures)
+        context.draw(pictures, snapshots)
 
 
 def _made(name: str, shape: Sequence[int], out: Any) -> Array:
@@ -143,6 +143,11 @@ class Renderer:
     def render(self, *, out: Optional[Array] = None) -> Array:
         """The picture of the state that was taken last, or `out`, into which it is written."""
         return self._drawn([self._open().snapshot(self._scene)], (), out)
+
+    def render_all(self) -> Dict[str, Array]:
+        """All planes of the state that was taken last, drawn at once: render()'s arrays by "rgb", "depth" and "segmentation"."""
+        planes = render_batch([self._scene], self._open(), self._height, self._width, depth=True, segmentation=True)
+        return {name: plane[0] for name, plane in planes.items()}
 
     def render_batch(
         self, states: Sequence[Any], cameras: Sequence[Any] = (-1,), scene_option: Any = None, *, out: Optional[Array] = None

@@ -113,6 +113,7 @@ class Snapshot:
         self._buffers: Dict[str, Any] = {}
         self._memory: Any = None
         self._camera: Any = None
+        self.handle: Any = None  #: the copy of the model that it is drawn with
         self.rect = (0, 0, 0, 0)
 
     def take(self, scene: Any) -> "Snapshot":
