@@ -81,7 +81,7 @@ Result<Drawer> Drawer::make(const Model& model, const Look& look, const Executio
     return Drawer(std::move(*frames), std::move(*renderer), execution);
 }
 
-Result<void> Drawer::move_vertices(Worker& by, const Scene& scene) const {
+Result<void> Drawer::move_vertices(Worker& by, const Scene& scene, const Execution& execution) const {
     const ModelMeshes& numbers = model_.numbers;
     for (std::size_t k = 0; k < numbers.soft.size(); ++k) {
         const SoftMesh& soft = numbers.soft[k];
@@ -104,7 +104,7 @@ Result<void> Drawer::move_vertices(Worker& by, const Scene& scene) const {
         };
         take(positions + soft.first * each, by.positions);
         take(normals + soft.first * each, by.normals);
-        if (auto ok = by.renderer.set_vertices(numbers.skins + static_cast<int>(k), by.positions, by.normals); !ok) return ok;
+        if (auto ok = by.renderer.set_vertices(numbers.skins + static_cast<int>(k), by.positions, by.normals, execution); !ok) return ok;
     }
     return {};
 }
@@ -130,7 +130,13 @@ Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& e
     const bool with_ids = picture.segid != nullptr || picture.object != nullptr || as_colors;
     const bool of_color_pass = picture.depth != nullptr && picture.depth_of_color_pass;
     if (!colors && !with_ids && picture.depth == nullptr) return {};
-    if (auto ok = move_vertices(by, scene); !ok) return ok;
+    const auto rest = [&] {
+        Execution left = execution;
+        const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (left.time_limit_s > 0) left.time_limit_s -= std::min(passed, left.time_limit_s * kAlmostAll);
+        return left;
+    };
+    if (auto ok = move_vertices(by, scene, rest()); !ok) return ok;
     const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
     if (with_ids) by.ids.resize(pixels);
     // Planes that are not drawn yet. Those of the segmentation pass, and the depth of a picture of one sample, may come with the colors.
@@ -150,11 +156,7 @@ Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& e
                                  .ids = ids && segments ? by.ids.data() : nullptr,
                                  .transparent_planes = true,
                                  .backdrop_depth = with_rgb && of_color_pass};
-        Execution rest = execution;
-        if (rest.time_limit_s > 0)
-            rest.time_limit_s -=
-                std::min(rest.time_limit_s * kAlmostAll, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        if (auto ok = by.renderer.render(made->frame, target, rest); !ok) return ok;
+        if (auto ok = by.renderer.render(made->frame, target, rest()); !ok) return ok;
         if (target.ids != nullptr) show_ids(picture, *made, by.ids, as_colors, flags[kIdColor] != 0);
         if (takes_depth) convert_depth(picture, *made, pixels);
         depth &= !takes_depth, ids &= !segments;

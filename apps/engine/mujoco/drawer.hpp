@@ -51,7 +51,7 @@ private:
     /// execution: of the whole call, which began at `start`.
     [[nodiscard]] Result<void> draw(Worker& by, const Picture& picture, const Execution& execution,
                                     std::chrono::steady_clock::time_point start) const;
-    [[nodiscard]] Result<void> move_vertices(Worker& by, const Scene& scene) const;
+    [[nodiscard]] Result<void> move_vertices(Worker& by, const Scene& scene, const Execution& execution) const;
 
     FrameModel model_;
     Execution execution_;
