@@ -1029,7 +1029,7 @@ typedef struct halflit_mujoco_layout {
     int32_t camera_bottom, camera_top, camera_near, camera_far;                  ///< float
     int32_t camera_orthographic;                                                 ///< int
     /// Numbers of mjtGeom that differ among versions; -1: there is none.
-    int32_t type_skin, type_flex, type_linebox, type_triangle;
+    int32_t type_skin, type_flex, type_linebox, type_triangle;  ///< of skins, flexes, boxes of lines and triangles
 } halflit_mujoco_layout;
 HALFLIT_C_API int32_t halflit_mujoco_layout_init(halflit_mujoco_layout* layout, size_t size);
 
@@ -1042,49 +1042,51 @@ typedef struct halflit_mujoco_model {
     float fog_rgba[4], haze_rgba[4];                                     ///< vis.rgba.fog, vis.rgba.haze
     float linewidth;                                                     ///< vis.global
     int32_t shadowsize, numslices, numstacks, numquads;                  ///< vis.quality
-    int32_t ngeom, nmat, nmesh, nmeshvert, nmeshnormal, nmeshtexcoord, nmeshface, nmeshgraph, nhfield, nhfielddata, ntex;
-    int32_t nskin, nskinvert, nskintexvert, nskinface, nflex;
-    uint64_t ntexdata;
-    const int32_t* geom_type;
-    const int32_t* geom_matid;
-    const double* geom_size;
-    const int32_t* mat_texid;  ///< of each material, the texture of its colour; needed where layout.geom_texid is -1, as the next one
-    const uint8_t* mat_texuniform;
-    const float* mat_texrepeat;
-    const int32_t* mesh_vertadr;
-    const int32_t* mesh_vertnum;
-    const int32_t* mesh_normaladr;    ///< null: mesh_vertadr, and normals are addressed by mesh_face, as in MuJoCo 2.2
-    const int32_t* mesh_texcoordadr;  ///< -1: none
-    const int32_t* mesh_faceadr;
-    const int32_t* mesh_facenum;
-    const int32_t* mesh_graphadr;  ///< -1: none
-    const float* mesh_vert;
-    const float* mesh_normal;
-    const float* mesh_texcoord;
-    const int32_t* mesh_face;
+    int32_t ngeom, nmat, nmesh, nmeshvert;                               ///< as in mjModel
+    int32_t nmeshnormal, nmeshtexcoord;                                  ///< as in mjModel; of MuJoCo 2.2 nmeshvert and nmeshtexvert
+    int32_t nmeshface, nmeshgraph, nhfield, nhfielddata, ntex;           ///< as in mjModel
+    int32_t nskin, nskinvert, nskintexvert, nskinface, nflex;            ///< as in mjModel
+    uint64_t ntexdata;                                                   ///< as in mjModel
+    const int32_t* geom_type;                                            ///< as in mjModel
+    const int32_t* geom_matid;                                           ///< as in mjModel
+    const double* geom_size;                                             ///< as in mjModel
+    const int32_t* mat_texid;       ///< of each material, the texture of its colour; needed where layout.geom_texid is -1, as the next one
+    const uint8_t* mat_texuniform;  ///< as in mjModel
+    const float* mat_texrepeat;     ///< as in mjModel
+    const int32_t* mesh_vertadr;    ///< as in mjModel
+    const int32_t* mesh_vertnum;    ///< as in mjModel
+    const int32_t* mesh_normaladr;  ///< null: mesh_vertadr, and normals are addressed by mesh_face, as in MuJoCo 2.2
+    const int32_t* mesh_texcoordadr;   ///< -1: none
+    const int32_t* mesh_faceadr;       ///< as in mjModel
+    const int32_t* mesh_facenum;       ///< as in mjModel
+    const int32_t* mesh_graphadr;      ///< -1: none
+    const float* mesh_vert;            ///< as in mjModel
+    const float* mesh_normal;          ///< as in mjModel
+    const float* mesh_texcoord;        ///< as in mjModel
+    const int32_t* mesh_face;          ///< as in mjModel
     const int32_t* mesh_facenormal;    ///< null: mesh_face
     const int32_t* mesh_facetexcoord;  ///< null: mesh_face
-    const int32_t* mesh_graph;
-    const double* hfield_size;
-    const int32_t* hfield_nrow;
-    const int32_t* hfield_ncol;
-    const int32_t* hfield_adr;
-    const float* hfield_data;
-    const int32_t* tex_type;
-    const int32_t* tex_width;
-    const int32_t* tex_height;
-    const int32_t* tex_nchannel;    ///< null: 3 each
-    const int32_t* tex_colorspace;  ///< mjtColorSpace, 2: sRGB; null: none says
-    const int64_t* tex_adr;
-    const uint8_t* tex_data;  ///< tex_rgb before 3.2
-    const int32_t* skin_vertadr;
-    const int32_t* skin_vertnum;
-    const int32_t* skin_texcoordadr;  ///< -1: none
-    const int32_t* skin_faceadr;
-    const int32_t* skin_facenum;
-    const float* skin_texcoord;
-    const int32_t* skin_face;
-    const int32_t* flex_facenum;  ///< mjvScene.flexfacenum: room for so many triangles of each
+    const int32_t* mesh_graph;         ///< as in mjModel
+    const double* hfield_size;         ///< as in mjModel
+    const int32_t* hfield_nrow;        ///< as in mjModel
+    const int32_t* hfield_ncol;        ///< as in mjModel
+    const int32_t* hfield_adr;         ///< as in mjModel
+    const float* hfield_data;          ///< as in mjModel
+    const int32_t* tex_type;           ///< as in mjModel
+    const int32_t* tex_width;          ///< as in mjModel
+    const int32_t* tex_height;         ///< as in mjModel
+    const int32_t* tex_nchannel;       ///< null: 3 each
+    const int32_t* tex_colorspace;     ///< mjtColorSpace, 2: sRGB; null: none says
+    const int64_t* tex_adr;            ///< as in mjModel
+    const uint8_t* tex_data;           ///< tex_rgb before 3.2
+    const int32_t* skin_vertadr;       ///< as in mjModel
+    const int32_t* skin_vertnum;       ///< as in mjModel
+    const int32_t* skin_texcoordadr;   ///< -1: none
+    const int32_t* skin_faceadr;       ///< as in mjModel
+    const int32_t* skin_facenum;       ///< as in mjModel
+    const float* skin_texcoord;        ///< as in mjModel
+    const int32_t* skin_face;          ///< as in mjModel
+    const int32_t* flex_facenum;       ///< mjvScene.flexfacenum: room for so many triangles of each
 } halflit_mujoco_model;
 HALFLIT_C_API int32_t halflit_mujoco_model_init(halflit_mujoco_model* model, size_t size);
 
@@ -1092,18 +1094,18 @@ HALFLIT_C_API int32_t halflit_mujoco_model_init(halflit_mujoco_model* model, siz
 /// which geoms mirror, are found without.
 typedef struct halflit_mujoco_scene {
     size_t size;
-    const void* geoms;      ///< mjvGeom
-    const void* lights;     ///< mjvLight
-    const void* camera;     ///< two mjvGLCamera, between which the picture is seen
-    const uint8_t* flags;   ///< ten: shadow, wireframe (not drawn), reflection, additive, skybox, fog, haze, segment, idcolor, cull_face
-    const float* skinvert;  ///< 3 nskinvert; null: skins are not drawn
-    const float* skinnormal;
-    const int32_t* flexfaceused;  ///< triangles of each flex, which has no texture; null: flexes are not drawn
-    const float* flexface;        ///< nine numbers a triangle
-    const float* flexnormal;
-    int32_t ngeom, nlight;
-    int32_t enabletransform;
-    float translate[3], rotate[4], scale;
+    const void* geoms;        ///< mjvGeom
+    const void* lights;       ///< mjvLight
+    const void* camera;       ///< two mjvGLCamera, between which the picture is seen
+    const uint8_t* flags;     ///< ten: shadow, wireframe (not drawn), reflection, additive, skybox, fog, haze, segment, idcolor, cull_face
+    const float* skinvert;    ///< 3 nskinvert; null: skins are not drawn
+    const float* skinnormal;  ///< as in mjvScene
+    const int32_t* flexfaceused;           ///< triangles of each flex, which has no texture; null: flexes are not drawn
+    const float* flexface;                 ///< nine numbers a triangle
+    const float* flexnormal;               ///< as in mjvScene
+    int32_t ngeom, nlight;                 ///< as in mjvScene
+    int32_t enabletransform;               ///< as in mjvScene
+    float translate[3], rotate[4], scale;  ///< as in mjvScene
     int32_t reserved;
 } halflit_mujoco_scene;
 HALFLIT_C_API int32_t halflit_mujoco_scene_init(halflit_mujoco_scene* scene, size_t size);
@@ -1117,18 +1119,18 @@ enum { HALFLIT_MUJOCO_PASS_SEGMENT = 0, HALFLIT_MUJOCO_PASS_COLOR = 1 };
 /// A picture of a scene, in the caller's memory, rows without gaps. A null pointer is not drawn.
 typedef struct halflit_mujoco_picture {
     size_t size;
-    const halflit_mujoco_scene* scene;
-    const void* camera;     ///< two mjvGLCamera in place of the scene's; null: the scene's
-    const uint8_t* flags;   ///< ten flags in place of the scene's; null: the scene's
-    uint8_t* rgb;           ///< three codes a pixel; with the flag `segment` the colours of segids
-    float* depth;           ///< one number a pixel
-    int32_t* segid;         ///< of what is nearest, transparent or not; -1: nothing
-    int32_t* object;        ///< objid and objtype of it; -1, -1: nothing
-    int32_t width, height;  ///< pixels
-    int32_t samples;        ///< 1 or 4 a pixel, of rgb without `segment`
-    int32_t bottom_up;      ///< the first row is the bottom one, as mjr_readPixels() gives it
-    int32_t depth_unit;     ///< HALFLIT_MUJOCO_DEPTH
-    int32_t depth_pass;     ///< HALFLIT_MUJOCO_PASS
+    const halflit_mujoco_scene* scene;  ///< what is drawn
+    const void* camera;                 ///< two mjvGLCamera in place of the scene's; null: the scene's
+    const uint8_t* flags;               ///< ten flags in place of the scene's; null: the scene's
+    uint8_t* rgb;                       ///< three codes a pixel; with the flag `segment` the colours of segids
+    float* depth;                       ///< one number a pixel
+    int32_t* segid;                     ///< of what is nearest, transparent or not; -1: nothing
+    int32_t* object;                    ///< objid and objtype of it; -1, -1: nothing
+    int32_t width, height;              ///< pixels
+    int32_t samples;                    ///< 1 or 4 a pixel, of rgb without `segment`
+    int32_t bottom_up;                  ///< the first row is the bottom one, as mjr_readPixels() gives it
+    int32_t depth_unit;                 ///< HALFLIT_MUJOCO_DEPTH
+    int32_t depth_pass;                 ///< HALFLIT_MUJOCO_PASS
 } halflit_mujoco_picture;
 HALFLIT_C_API int32_t halflit_mujoco_picture_init(halflit_mujoco_picture* picture, size_t size);
 
