@@ -4,7 +4,6 @@
 #include "raster/fixed/fixed_shader.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace halflit::raster {
 namespace {
@@ -35,8 +34,11 @@ void write_planes(const FixedContext& context, const ViewGeometry& geometry, con
         const int row = target.bottom_up ? target.height - 1 - (rect.y + y) : rect.y + y;
         const std::size_t to = static_cast<std::size_t>(row) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(rect.x);
         const int from = y * kTileStride;
-        if (target.depth != nullptr)
-            std::memcpy(target.depth + to, buffers.depth[0] + from, sizeof(float) * static_cast<std::size_t>(rect.width));
+        // Huge triangles that were clipped may have depths beyond the range.
+        for (int x = 0; target.depth != nullptr && x < rect.width; ++x) {
+            const float depth = buffers.depth[0][from + x];
+            target.depth[to + static_cast<std::size_t>(x)] = depth > 0.0f ? std::min(depth, 1.0f) : 0.0f;
+        }
         for (int x = 0; target.ids != nullptr && x < rect.width; ++x) {
             const std::uint32_t triangle = buffers.triangle[0][from + x];
             if (triangle != last) {

@@ -226,6 +226,8 @@ class Pictures(unittest.TestCase):
             drawn.mjr_render(rect, Scene(), context)
 
     def test_looks_and_settings_of_a_context(self):
+        for asked, look in {"2.3.7": "2.2.2", "3.0": "3.3.2", "3.3.2": "3.3.2", "3.12": "3.3.3"}.items():
+            self.assertEqual(drawn.MjrContext(model(), look=asked).look, look)
         looks = {(2, 2, 2): "2.2.2", (3, 1, 6): "3.3.2", (3, 3, 2): "3.3.2", (3, 3, 3): "3.3.3", (3, 12, 0): "3.3.3"}
         for version, look in looks.items():
             with of_version(version):

@@ -13,7 +13,7 @@ from halflit import _c
 from halflit._errors import UsageError, warn
 from halflit._types import Array
 
-from ._models import handle_of, look_of
+from ._models import checked_threads, handle_of, look_of
 from ._scenes import Snapshot, version_of_scene
 
 WINDOW, DISTANCE = _c.CONSTANTS["HALFLIT_MUJOCO_DEPTH_WINDOW"], _c.CONSTANTS["HALFLIT_MUJOCO_DEPTH_DISTANCE"]
@@ -99,7 +99,7 @@ class MjrContext:
 
     def __init__(self, model: Any = None, fontscale: Any = 150, *, look: Optional[str] = None, threads: Optional[int] = None) -> None:
         self.model = model
-        self.threads = Defaults.threads if threads is None else threads
+        self.threads = checked_threads(Defaults.threads if threads is None else threads)
         self.fontScale = int(fontscale)
         self.lineWidth, self.shadowClip, self.shadowScale, self.fogStart, self.fogEnd = 1.0, 0.0, 0.0, 0.0, 0.0
         self.fogRGBA = np.zeros(4, np.float32)
@@ -114,6 +114,7 @@ class MjrContext:
         self._lock = threading.Lock()
         self._handle: Any = None
         self._is_stale = True
+        self._sizes: Optional[Dict[str, int]] = None
         self._frames: List[Snapshot] = []
         self._spare: List[Snapshot] = []
         self._picture: Any = None
@@ -137,7 +138,7 @@ class MjrContext:
 
     def _current(self) -> Dict[str, Any]:
         """Members of this object that a caller may set, as halflit_mujoco_model has them."""
-        extent = float(self.model.stat.extent) if self.model is not None else 1.0
+        extent = (float(self.model.stat.extent) if self.model is not None else 1.0) or 1.0
         return {
             "linewidth": self.lineWidth, "shadowscale": self.shadowScale, "shadowsize": int(self.shadowSize),
             "fog_rgba": tuple(self.fogRGBA), "shadowclip": self.shadowClip / extent,
@@ -156,8 +157,12 @@ class MjrContext:
         if self._is_stale or current != self._made_with:
             changed = {name: value for name, value in current.items() if value != self._settings[name]}
             self._handle = handle_of(self.model, self._version, self.look, self.threads, scene, changed)
-            self._made_with, self._is_stale = current, False
+            self._made_with, self._is_stale, self._sizes = current, False, None
         snapshot = (self._spare.pop() if self._spare else Snapshot()).take(scene)
+        if self._sizes is None and snapshot.sizes.get("skinvert", 0) in (0, 12 * int(getattr(self.model, "nskinvert", 0))):
+            self._sizes = snapshot.sizes
+        if snapshot.sizes != self._sizes:  # the library reads as many vertices as its copy of the model has
+            raise UsageError("the scene has other skins or flexes than the context's model")
         snapshot.handle = self._handle
         return snapshot
 

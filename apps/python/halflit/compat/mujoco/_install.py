@@ -8,7 +8,7 @@ from typing import Any, List, Optional, Tuple
 
 from . import _context
 from ._context import Defaults, GLContext
-from ._models import look_of
+from ._models import checked_threads, look_of
 from ._renderer import Renderer
 
 #: Modules that give a class GLContext by that name, or another. Those of robosuite would import OpenGL.
@@ -38,7 +38,8 @@ def install(*, look: Optional[str] = None, threads: int = 0) -> None:
 
     look: "2.2.2", "3.3.2" or "3.3.3", the release whose pictures are made; None: by mujoco's own version. threads: 0: all cores.
     """
-    look_of(look, ())
+    look_of(look, (3,))
+    checked_threads(threads)
     mujoco = importlib.import_module("mujoco")
     uninstall()
     Defaults.look, Defaults.threads = look, threads

@@ -26,12 +26,20 @@ LOOKS = ("2.2.2", "3.3.2", "3.3.3")
 
 
 def look_of(look: Optional[str], version: Version) -> str:
-    """The release whose pictures are made: the one that is asked for, or the last one that is not newer than this version."""
-    if look is None:
-        return LOOKS[2 if version >= (3, 3, 3) else 1 if version >= (3,) else 0]
-    if look not in LOOKS:
-        raise UsageError(f"look: expected one of {', '.join(LOOKS)}, found {shown(look)}")
-    return look
+    """The look of a release of MuJoCo: of the one that is asked for, or of this version."""
+    if look is not None:
+        found = re.fullmatch(r"(2|3)\.(\d+)(?:\.(\d+))?", str(look))
+        version = tuple(int(part or 0) for part in found.groups()) if found else ()
+        if version < (2, 2):
+            raise UsageError(f"look: expected a release of MuJoCo from 2.2 to 3, such as {', '.join(LOOKS)}, found {shown(look)}")
+    return LOOKS[2 if version >= (3, 3, 3) else 1 if version >= (3,) else 0]
+
+
+def checked_threads(threads: int) -> int:
+    """The number, if it is one that pictures can be drawn by."""
+    if not 0 <= threads <= 4096:
+        raise UsageError(f"threads: expected 0 to 4096, found {threads}")
+    return threads
 
 
 def handle_of(model: Any, version: Version, look: str, threads: int, scene: Any, changed: Dict[str, Any]) -> Any:

@@ -153,10 +153,11 @@ class Renderer:
         self, states: Sequence[Any], cameras: Sequence[Any] = (-1,), scene_option: Any = None, *, out: Optional[Array] = None
     ) -> Array:
         """Pictures of each state (MjData) by each camera, drawn at once on all cores: an array of (states, cameras) arrays of render().
-        They have the pixels of update_scene() and render()."""
+        None depends on the others: MuJoCo centres an infinite floor on the camera of the update before, so each scene is updated twice."""
         snapshots: List[Snapshot] = []
         for data in states:
-            for camera in cameras:
+            for camera in (cameras,) if isinstance(cameras, str) else cameras:
+                self.update_scene(data, camera, scene_option)
                 self.update_scene(data, camera, scene_option)
                 snapshots.append(self._open().snapshot(self._scene))
         return self._drawn(snapshots, (len(states), len(cameras)), out)

@@ -10,6 +10,8 @@ from typing import Any, Dict, List, Tuple, Union
 import numpy as np
 
 from halflit import _c
+from halflit._errors import UsageError
+
 
 from ._layouts import Layout, Version, layout_of, version_of
 
@@ -113,6 +115,7 @@ class Snapshot:
         self._buffers: Dict[str, Any] = {}
         self._memory: Any = None
         self._camera: Any = None
+        self.sizes: Dict[str, int] = {}  #: bytes of skins and flexes
         self.handle: Any = None  #: the copy of the model that it is drawn with
         self.rect = (0, 0, 0, 0)
 
@@ -121,7 +124,10 @@ class Snapshot:
         memory = _memory_of(scene, layout)
         self._camera, struct = layout.types["camera"], self.struct
         counts = {"geoms": int(scene.ngeom), "lights": int(scene.nlight), "camera": 2}
+        if not 0 <= counts["geoms"] <= int(getattr(scene, "maxgeom", counts["geoms"])) or not 0 <= counts["lights"] <= 100:
+            raise UsageError(f"scene: ngeom is {counts['geoms']}, nlight is {counts['lights']}: more than it has room for, or below 0")
         struct.ngeom, struct.nlight = counts["geoms"], counts["lights"]
+        self.sizes = {}
         struct.enabletransform = int(scene.enabletransform)
         if memory is None or memory is not self._memory:
             self._memory = memory
@@ -135,6 +141,7 @@ class Snapshot:
                 self._copy(name, memory.base[name], counts[name] * layout.types[struct_name].itemsize)
             for name, address, size in memory.arrays:
                 self._copy(name, address, size)
+                self.sizes[name] = size
             given = bytes(memory.flags)
             self._keep("flags", given if len(given) == 10 else bytes(given[i] for i in layout.flags))
             if struct.enabletransform:
@@ -151,6 +158,7 @@ class Snapshot:
             array = np.ascontiguousarray(getattr(scene, name, ()), kind)
             if array.size:
                 self._keep(name, array.tobytes())
+                self.sizes[name] = array.nbytes
         self._keep("flags", bytes(int(scene.flags[i]) for i in layout.flags))
         if self.struct.enabletransform:
             self.struct.translate[:], self.struct.rotate[:] = list(scene.translate), list(scene.rotate)
