@@ -12,7 +12,6 @@ import numpy as np
 from halflit import _c
 from halflit._errors import UsageError
 
-
 from ._layouts import Layout, Version, layout_of, version_of
 
 #: Members of mjvScene and of halflit_mujoco_scene that are arrays of numbers.
