@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import enum
 import itertools
+import operator
 import threading
 from typing import Any, Callable, Dict, List, Optional, Sequence, Set, Tuple
 
@@ -183,7 +184,7 @@ class MjrContext:
         """Draws an array of halflit_mujoco_picture, or one, of these snapshots."""
         first = 0
         with self._lock:
-            for handle, group in itertools.groupby(snapshots, lambda snapshot: snapshot.handle):
+            for handle, group in itertools.groupby(snapshots, operator.attrgetter("handle")):
                 count = len(list(group))
                 _c.call("mujoco_render", handle, ctypes.byref(pictures, first * ctypes.sizeof(_c.STRUCT["halflit_mujoco_picture"])), count)
                 first += count
