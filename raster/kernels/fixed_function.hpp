@@ -138,8 +138,8 @@ struct CodePlace {
     I face;
 };
 
-/// A level's colour at a place: in codes, as whole numbers, or in numbers.
-HALFLIT_INLINE void level_color(const CodeLevels& levels, const CodePlace& place, I level, I (&codes)[3], F (&numbers)[3]) {
+/// A level's colour at a place: in codes, as whole numbers, or in numbers. Two calls in line would be 10 kB of code.
+[[gnu::noinline]] static void level_color(const CodeLevels& levels, const CodePlace& place, I level, I (&codes)[3], F (&numbers)[3]) {
     const I width = gather(levels.width, level), height = gather(levels.height, level), first = gather(levels.first, level);
     I texel[4];
     F along, down;
