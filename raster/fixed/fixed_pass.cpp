@@ -69,18 +69,21 @@ Result<void> FixedPass::shade(const FixedContext& context, const View& view, con
     geometry_.forget();
     if (auto ok = geometry_.make(context.scene, view, context.kernels, context.executor); !ok) return ok;
     const std::size_t materials = context.scene.scene().materials.size() + 1;
-    const auto fill = [&](int in_turn, int lights) {
-        return [&, in_turn, lights](const Draw& draw, const VertexRecordArgs& args) {
-            light.fill(context.frame.items[draw.instance], args, context.kernels, in_turn, lights);
-        };
+    std::vector<ItemLight> of_draws;
+    const auto make_records = [&](VertexRecords& records, shading::SlotMask slots, const auto& light_of) {
+        of_draws.clear();
+        for (const Draw& draw : geometry_.draws()) of_draws.push_back(light_of(context.frame.items[draw.instance]));
+        records.make(geometry_, std::vector(materials, slots), context.executor, [&](const Draw& draw, const VertexRecordArgs& to) {
+            of_draws[static_cast<std::size_t>(&draw - geometry_.draws().data())].fill(to, context.kernels);
+        });
     };
-    surface_.make(geometry_, std::vector(materials, light.surface_slots()), context.executor, fill(-1, 0));
+    make_records(surface_, light.surface_slots(), [&](const FixedItem& item) { return light.surface_of(item); });
     const int shadowed = static_cast<int>(light.shadowed().size());
     for (int i = 0; i < shadowed; i += kLightsARecord) {
         const auto set = static_cast<std::size_t>(i / kLightsARecord);
         const int lights = std::min(kLightsARecord, shadowed - i);
         if (lights_.size() == set) lights_.push_back(std::make_unique<VertexRecords>());
-        lights_[set]->make(geometry_, std::vector(materials, light_slots(lights)), context.executor, fill(i, lights));
+        make_records(*lights_[set], light_slots(lights), [&](const FixedItem& item) { return light.shadowed_of(item, i, lights); });
     }
     tiles_.resize(static_cast<std::size_t>(view.tile_count()));
     context.executor.run(view.tile_count(), [&](int number) {

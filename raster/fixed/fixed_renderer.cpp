@@ -81,15 +81,6 @@ Frustum frustum_of(const FixedCamera& camera) {
     return {camera.left, camera.right, camera.bottom, camera.top, camera.near_z, camera.far_z, camera.parallel};
 }
 
-/// Standard sample positions of graphics hardware in windows whose y points up.
-SamplePattern four_samples() {
-    SamplePattern pattern;
-    pattern.count = 4;
-    constexpr std::int16_t kPlaces[4][2] = {{-32, 96}, {96, 32}, {-96, -32}, {32, -96}};
-    for (int s = 0; s < 4; ++s) pattern.x[s] = kPlaces[s][0], pattern.y[s] = kPlaces[s][1];
-    return pattern;
-}
-
 }  // namespace
 
 struct FixedFunctionRenderer::Impl {
@@ -178,7 +169,7 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
     const FixedContext context{frame, *prepared, textures, raster_kernels(isa), executor, scratch};
     const Mat4 camera_from_world = view_from_world(frame.camera.position_ws, frame.camera.forward_ws, frame.camera.up_ws);
     const Mat4 clip_from_camera = clip_from_view(frustum_of(frame.camera));
-    View view = window_view(multiply_in_double(clip_from_camera, camera_from_world), target.width, target.height);
+    View view = make_view(multiply_in_double(clip_from_camera, camera_from_world), target.width, target.height, {}, kMaxTileSize, 1);
     view.line_width = static_cast<int>(frame.line_width * 256.0f);
     const auto any = [&](const auto& is) { return std::any_of(frame.items.begin(), frame.items.end(), is); };
 
@@ -187,19 +178,19 @@ Result<void> FixedFunctionRenderer::Impl::draw(const FixedFrame& frame, const Fi
     if (target.depth != nullptr && target.backdrop_depth && (target.rgb == nullptr || target.samples != 1 || target.ids != nullptr))
         return fail(ErrorCode::usage, "the depth of backdrops comes with rgb of one sample, and without ids");
     const bool others = !target.backdrop_depth && any([&](const FixedItem& item) {
-        return (item.stage == FixedStage::solid && !item.in_planes) || (item.stage == FixedStage::transparent && target.transparent_planes);
+        return (item.stage == FixedStage::solid && !item.in_planes) || item.stage == FixedStage::transparent;
     });
     const bool alone = has_planes && (target.rgb == nullptr || target.samples != 1 || others);
     if (alone) {
         show(frame, false, Sides::as_asked, [&](const FixedItem& item) {
-            return item.in_planes &&
-                   (item.stage == FixedStage::solid || (item.stage == FixedStage::transparent && target.transparent_planes));
+            return item.in_planes && (item.stage == FixedStage::solid || item.stage == FixedStage::transparent);
         });
         if (auto ok = draw_planes(context, view, planes, target); !ok) return ok;
     }
     if (target.rgb == nullptr) return {};
 
-    if (target.samples == 4) view.samples = four_samples();
+    view.samples = make_view(view.clip_from_world, target.width, target.height, {}, kMaxTileSize, target.samples).samples;
+    for (std::int16_t& y : view.samples.y) y = static_cast<std::int16_t>(-y);  // OpenGL's windows have y up
     show(frame, true, Sides::as_asked, [](const FixedItem&) { return true; });
     const VertexLight light(frame, camera_from_world, view.clip_from_world, frame.eye_ws, true, 1.0f);
     std::vector<LightMap> maps;

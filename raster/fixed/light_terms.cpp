@@ -29,12 +29,14 @@ FixedLightTerms terms_of(const FixedLight& light) {
     return terms;
 }
 
-FixedLightTerms on_material(FixedLightTerms terms, const FixedMaterial& material) {
-    const float color[3] = {material.color.x, material.color.y, material.color.z};
+void put_rgb(Vec3f v, float (&out)[4]) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+FixedLightTerms on_material(FixedLightTerms terms, Vec3f color, float specular) {
+    const float rgb[3] = {color.x, color.y, color.z};
     for (int k = 0; k < 3; ++k) {
-        terms.ambient[k] *= color[k];
-        terms.diffuse[k] *= color[k];
-        terms.specular[k] *= material.specular;
+        terms.ambient[k] *= rgb[k];
+        terms.diffuse[k] *= rgb[k];
+        terms.specular[k] *= specular;
     }
     return terms;
 }
@@ -72,51 +74,69 @@ shading::SlotMask VertexLight::surface_slots() const {
     return shading::kPositionSlot | shading::kUv0Slot | shading::kTangentSlot | (textured_ ? shading::kUv1Slot : 0u);
 }
 
-void VertexLight::fill(const FixedItem& item, const VertexRecordArgs& args, const RasterKernels& kernels, int in_turn, int count) const {
+Vec3f VertexLight::color_of(const FixedMaterial& material) const {
+    return Vec3f{material.color.x, material.color.y, material.color.z} * reflectance_;
+}
+
+ItemLight VertexLight::of(const FixedItem& item) const {
+    ItemLight made;
+    FixedVertexArgs& args = made.args;
+    put(eye_ws_, args.eye);
+    args.shininess = item.material.shininess;
+    args.unlit = item.material.unlit;
+    args.color[3] = item.material.color.w;
+    return made;
+}
+
+ItemLight VertexLight::surface_of(const FixedItem& item) const {
+    const FixedMaterial& material = item.material;
+    ItemLight made = of(item);
+    FixedVertexArgs& args = made.args;
+    const Vec3f color = color_of(material);
+    put_rgb(material.unlit ? color : material.emission * reflectance_ + color * frame_.ambient, args.color);
+    if (!material.unlit)
+        for (const std::size_t i : item.stage == FixedStage::solid ? plain_ : all_)
+            made.terms.push_back(on_material(lights_[i], color, material.specular));
+    std::copy(std::begin(depth_row_), std::end(depth_row_), args.depth);
+    args.generated = material.generated && material.texture >= 0;
+    if (args.generated) rows_in_world(item, args.planes);
+    args.textured = textured_;
+    std::copy(std::begin(w_row_), std::end(w_row_), args.clip_w);
+    return made;
+}
+
+ItemLight VertexLight::shadowed_of(const FixedItem& item, int first, int count) const {
+    ItemLight made = of(item);
+    made.args.separate = true;
+    Vec3f color = color_of(item.material);
+    float specular = item.material.specular;
+    const bool is_solid = item.stage == FixedStage::solid;
+    // Solid items without light have their color again in the pass of each light, as far as it is not in shadow.
+    if (item.material.unlit && is_solid) put_rgb(color, made.args.color);
+    if (item.material.unlit || !is_solid) color = {0, 0, 0}, specular = 0.0f;
+    for (int i = first; i < first + count; ++i)
+        made.terms.push_back(on_material(lights_[shadowed_[static_cast<std::size_t>(i)]], color, specular));
+    return made;
+}
+
+void ItemLight::fill(const VertexRecordArgs& to, const RasterKernels& kernels) const {
     alignas(64) float raw[kMostVertices * 12];
     alignas(64) float lit[kMostVertices * 16];
-    VertexRecordArgs of_mesh = args;
-    of_mesh.slots = shading::kBaseSlots | (item.material.unlit ? shading::kColorSlot : 0u);
-    of_mesh.stride = item.material.unlit ? 12 : 8;
-    of_mesh.records = raw - args.begin * of_mesh.stride;
+    VertexRecordArgs of_mesh = to;
+    of_mesh.slots = shading::kBaseSlots | (args.unlit ? shading::kColorSlot : 0u);
+    of_mesh.stride = args.unlit ? 12 : 8;
+    of_mesh.records = raw - to.begin * of_mesh.stride;
     kernels.vertex_records(of_mesh);
-
-    FixedMaterial material = item.material;
-    material.color = {material.color.x * reflectance_, material.color.y * reflectance_, material.color.z * reflectance_, material.color.w};
-    FixedVertexArgs light{};
+    FixedVertexArgs light = args;
     light.raw = raw;
     light.raw_stride = of_mesh.stride;
-    light.count = static_cast<int>(args.end - args.begin);
-    light.stride = args.stride;
+    light.count = static_cast<int>(to.end - to.begin);
     light.out = lit;
-    put(eye_ws_, light.eye);
-    light.shininess = material.shininess;
-    light.unlit = material.unlit;
-    const Vec3f emitted = material.emission * reflectance_;
-    const float color[3] = {material.color.x, material.color.y, material.color.z}, own[3] = {emitted.x, emitted.y, emitted.z};
-    for (int k = 0; k < 3; ++k) light.color[k] = material.unlit ? color[k] : own[k] + frame_.ambient * color[k];
-    light.color[3] = material.color.w;
-    std::vector<FixedLightTerms> terms;
-    if (in_turn >= 0) {
-        light.separate = true;
-        // Solid items without light have their color again in the pass of each light, as far as it is not in shadow.
-        for (int k = 0; k < 3; ++k) light.color[k] = material.unlit && item.stage == FixedStage::solid ? color[k] : 0.0f;
-        if (material.unlit || item.stage != FixedStage::solid) material.color = {0, 0, 0, 0}, material.specular = 0.0f;
-        for (int i = in_turn; i < in_turn + count; ++i)
-            terms.push_back(on_material(lights_[shadowed_[static_cast<std::size_t>(i)]], material));
-    } else {
-        if (!material.unlit)
-            for (const std::size_t i : item.stage == FixedStage::solid ? plain_ : all_) terms.push_back(on_material(lights_[i], material));
-        std::copy(std::begin(depth_row_), std::end(depth_row_), light.depth);
-        light.generated = material.generated && material.texture >= 0;
-        if (light.generated) rows_in_world(item, light.planes);
-        light.textured = textured_;
-        std::copy(std::begin(w_row_), std::end(w_row_), light.clip_w);
-    }
+    light.stride = to.stride;
     light.lights = terms.data();
     light.light_count = static_cast<int>(terms.size());
     kernels.fixed_vertices(light);
-    std::memcpy(args.records + args.begin * args.stride, lit, sizeof(float) * static_cast<std::size_t>(light.count * args.stride));
+    std::memcpy(to.records + to.begin * to.stride, lit, sizeof(float) * static_cast<std::size_t>(light.count * to.stride));
 }
 
 }  // namespace halflit::raster

@@ -10,7 +10,15 @@
 
 namespace halflit::raster {
 
-/// Writes what a frame's vertices have: the light of all lights or of those without shadows, and that of each light with a shadow.
+/// What the vertices of an item have.
+struct ItemLight {
+    FixedVertexArgs args{};  ///< without the vertices
+    std::vector<FixedLightTerms> terms;
+    /// Writes records of vertices, as VertexRecords::Fill.
+    void fill(const VertexRecordArgs& to, const RasterKernels& kernels) const;
+};
+
+/// Light at the vertices of a view.
 class VertexLight {
 public:
     /// view_from_world, clip_from_world: of the picture. shares: shadowed lights have sums of their own, where items receive them.
@@ -21,12 +29,19 @@ public:
     /// Attribute slots of the surface's records: position and depth, coordinates, colour, and with textures what else
     /// they need.
     [[nodiscard]] shading::SlotMask surface_slots() const;
-    /// Fills records of an item's vertices, as VertexRecords::Fill. in_turn: from which on of shadowed lights; -1: the surface.
-    void fill(const FixedItem& item, const VertexRecordArgs& args, const RasterKernels& kernels, int in_turn, int count) const;
+    /// The surface's records of an item, in the light of all lights or of those without shadows.
+    [[nodiscard]] ItemLight surface_of(const FixedItem& item) const;
+    /// Records of sums of shadowed lights, `count` from `first` on.
+    [[nodiscard]] ItemLight shadowed_of(const FixedItem& item, int first, int count) const;
 
+    /// Lights that have sums of their own: indices into FixedFrame::lights.
     [[nodiscard]] std::span<const std::size_t> shadowed() const { return shadowed_; }
 
 private:
+    [[nodiscard]] ItemLight of(const FixedItem& item) const;
+    /// The material's color in the mirror.
+    [[nodiscard]] Vec3f color_of(const FixedMaterial& material) const;
+
     const FixedFrame& frame_;
     float depth_row_[4], w_row_[4];
     Vec3f eye_ws_;

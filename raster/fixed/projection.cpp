@@ -1,9 +1,10 @@
 #include "raster/fixed/projection.hpp"
 
+#include "sh/vec3d.hpp"
+
 namespace halflit::raster {
 namespace {
 
-Vec3d in_double(Vec3f v) { return {v.x, v.y, v.z}; }
 Vec3d unit(Vec3d v) {
     const double length = __builtin_sqrt(dot(v, v));
     return length > 0.0 ? v * (1.0 / length) : Vec3d{0, 0, 1};
@@ -15,7 +16,7 @@ Vec4f column(double x, double y, double z, double w) {
 }  // namespace
 
 Mat4 view_from_world(Vec3f position, Vec3f forward, Vec3f up) {
-    const Vec3d f = unit(in_double(forward)), s = unit(cross(f, in_double(up))), u = unit(cross(s, f)), at = in_double(position);
+    const Vec3d f = unit(to_double(forward)), s = unit(cross(f, to_double(up))), u = unit(cross(s, f)), at = to_double(position);
     Mat4 m;
     m.c[0] = column(s.x, u.x, -f.x, 0);
     m.c[1] = column(s.y, u.y, -f.y, 0);
@@ -39,18 +40,6 @@ Mat4 clip_from_view(const Frustum& of) {
     m.c[2] = column((of.right + of.left) / width, (of.top + of.bottom) / height, of.near_z / depth, -1);
     m.c[3] = column(0, 0, of.near_z * of.far_z / depth, 0);
     return m;
-}
-
-View window_view(const Mat4& clip_from_world, int width, int height) {
-    View view;
-    view.clip_from_world = clip_from_world;
-    view.viewport.half_width = static_cast<float>(width) * 0.5f;
-    view.viewport.half_height = static_cast<float>(height) * 0.5f;
-    view.viewport.guard_x = static_cast<float>(kGuardBandPx) / view.viewport.half_width;
-    view.viewport.guard_y = static_cast<float>(kGuardBandPx) / view.viewport.half_height;
-    view.tile_size = kMaxTileSize;
-    set_region(view, {0, 0, width, height});
-    return view;
 }
 
 }  // namespace halflit::raster

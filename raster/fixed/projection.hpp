@@ -2,7 +2,6 @@
 #pragma once
 
 #include "halflit/math.hpp"
-#include "raster/view/view.hpp"
 #include "sh/mat4.hpp"
 
 namespace halflit::raster {
@@ -17,8 +16,5 @@ struct Frustum {
 };
 /// clip_from_world of a view; clip z is w at near_z and 0 at far_z.
 [[nodiscard]] Mat4 clip_from_view(const Frustum& frustum);
-
-/// A view through a window of width x height pixels, drawn in tiles of 64.
-[[nodiscard]] View window_view(const Mat4& clip_from_world, int width, int height);
 
 }  // namespace halflit::raster

@@ -32,7 +32,7 @@ LightMap::LightMap(const FixedLight& light) : clip_from_world_(clip_of(light)), 
     Mat4 inside = clip_from_world_;
     const float part = (size_ - 2.0f) / size_;
     for (Vec4f& c : inside.c) c.x *= part, c.y *= part;
-    view_ = window_view(inside, light.shadow_size, light.shadow_size);
+    view_ = make_view(inside, light.shadow_size, light.shadow_size, {}, kMaxTileSize, 1);
 }
 
 MapPlace LightMap::of(Vec3f p) const {

@@ -208,17 +208,25 @@ void PreparedData::find_coplanar(std::span<const std::uint8_t> moved) {
     coplanar_ = CoplanarGroups(*this, coplanar_pairs_);
 }
 
+/// Its meshes alone are prepared.
+Result<PreparedData> PreparedData::of_meshes(const Scene& scene, Executor& executor) {
+    PreparedData prepared;
+    prepared.scene_ = &scene;
+    prepared.meshes_.resize(scene.meshes.size());
+    std::vector<std::size_t> all(scene.meshes.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (auto ok = prepared.prepare_meshes(all, executor); !ok) return tl::unexpected<Error>(ok.error());
+    return prepared;
+}
+
 Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& execution) {
     return guarded("preparing a scene", execution, [&]() -> Result<PreparedData> {
         const WorkLimit work(scene.frame_work);
         Executor executor;
         executor.configure(execution);
-        PreparedData prepared;
-        prepared.scene_ = &scene;
-        prepared.meshes_.resize(scene.meshes.size());
-        std::vector<std::size_t> all(scene.meshes.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        if (auto ok = prepared.prepare_meshes(all, executor); !ok) return tl::unexpected<Error>(ok.error());
+        auto made = of_meshes(scene, executor);
+        if (!made) return made;
+        PreparedData& prepared = *made;
         if (auto ok = prepared.check_materials(); !ok) return tl::unexpected<Error>(ok.error());
         for (std::size_t i = 0; i < scene.instances.size(); ++i)
             if (auto ok = prepared.check_instance(i); !ok) return tl::unexpected<Error>(ok.error());
@@ -234,7 +242,7 @@ Result<PreparedData> PreparedData::make(const Scene& scene, const Execution& exe
         prepared.note_coverage();
         prepared.find_coplanar({});
         prepared.revision_ = all_new_revisions();
-        return prepared;
+        return made;
     });
 }
 
@@ -242,14 +250,11 @@ Result<PreparedData> PreparedData::make_for_geometry(const Scene& scene, const E
     return guarded("preparing a scene", execution, [&]() -> Result<PreparedData> {
         Executor executor;
         executor.configure(execution);
-        PreparedData prepared;
-        prepared.scene_ = &scene;
-        prepared.meshes_.resize(scene.meshes.size());
-        std::vector<std::size_t> all(scene.meshes.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        if (auto ok = prepared.prepare_meshes(all, executor); !ok) return tl::unexpected<Error>(ok.error());
+        auto made = of_meshes(scene, executor);
+        if (!made) return made;
+        PreparedData& prepared = *made;
         if (auto ok = prepared.place_instances(); !ok) return tl::unexpected<Error>(ok.error());
-        return prepared;
+        return made;
     });
 }
 

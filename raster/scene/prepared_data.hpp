@@ -95,6 +95,7 @@ public:
 
 private:
     PreparedData() = default;
+    [[nodiscard]] static Result<PreparedData> of_meshes(const Scene& scene, Executor& executor);
     Result<void> prepare(std::size_t mesh, Executor& executor);
     Result<void> prepare_meshes(std::span<const std::size_t> which, Executor& executor);
     Result<void> check_instance(std::size_t index) const;

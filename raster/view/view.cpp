@@ -31,8 +31,13 @@ SamplePattern sample_pattern(int samples) {
 }  // namespace
 
 View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples) {
+    return make_view(clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height)), width, height, region, tile_size,
+                     samples);
+}
+
+View make_view(const Mat4& clip_from_world, int width, int height, const Region& region, int tile_size, int samples) {
     View view;
-    view.clip_from_world = clip_from_world(camera, static_cast<float>(width) / static_cast<float>(height));
+    view.clip_from_world = clip_from_world;
     view.viewport.half_width = static_cast<float>(width) * 0.5f;
     view.viewport.half_height = static_cast<float>(height) * 0.5f;
     view.viewport.guard_x = static_cast<float>(kGuardBandPx) / view.viewport.half_width;

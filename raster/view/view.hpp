@@ -46,6 +46,9 @@ struct View {
 /// View of a camera through a window of width x height pixels, of which only `region` is drawn. samples: 1, 4, 8 or 16.
 [[nodiscard]] View make_view(const Camera& camera, int width, int height, const Region& region, int tile_size, int samples);
 
+/// The same of any matrix.
+[[nodiscard]] View make_view(const Mat4& clip_from_world, int width, int height, const Region& region, int tile_size, int samples);
+
 /// Draws another region of the window.
 void set_region(View& view, const Region& region);
 

@@ -154,7 +154,6 @@ Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& e
                                  .rgb = with_rgb ? picture.rgb : nullptr,
                                  .depth = takes_depth ? picture.depth : nullptr,
                                  .ids = ids && segments ? by.ids.data() : nullptr,
-                                 .transparent_planes = true,
                                  .backdrop_depth = with_rgb && takes_depth && of_color_pass};
         if (auto ok = by.renderer.render(made->frame, target, rest()); !ok) return ok;
         if (target.ids != nullptr) show_ids(picture, *made, by.ids, as_colors, flags[kIdColor] != 0);

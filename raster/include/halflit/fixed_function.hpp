@@ -120,16 +120,15 @@ struct FixedFrame {
     ShadowRule shadow;                 ///< of all lights
 };
 
-/// Memory for a picture. A null pointer: not made, and where `rgb` is null nothing is lit. Row 0 is the top row, or the bottom row.
+/// Memory for a picture. A null pointer: not made, and where `rgb` is null nothing is lit. Transparent items count in depth and ids.
 struct FixedTarget {
-    int width = 0, height = 0;       ///< pixels
-    int samples = 1;                 ///< 1 or 4 a pixel, for rgb alone
-    bool bottom_up = false;          ///< the first row is the bottom one
-    std::uint8_t* rgb = nullptr;     ///< three codes a pixel, rows one after the other
-    float* depth = nullptr;          ///< at the pixel's middle: 1 at the near plane, 0 at the far plane and where nothing is
-    std::uint32_t* ids = nullptr;    ///< FixedItem::id of what is nearest there; 0: nothing
-    bool transparent_planes = true;  ///< transparent items count in `ids` and `depth`
-    bool backdrop_depth = false;     ///< backdrops count in `depth`, and transparent items do not: with rgb of one sample, without ids
+    int width = 0, height = 0;     ///< pixels
+    int samples = 1;               ///< 1 or 4 a pixel, for rgb alone
+    bool bottom_up = false;        ///< the first row is the bottom one
+    std::uint8_t* rgb = nullptr;   ///< three codes a pixel, rows one after the other
+    float* depth = nullptr;        ///< at the pixel's middle: 1 at the near plane, 0 at the far plane and where nothing is
+    std::uint32_t* ids = nullptr;  ///< FixedItem::id of what is nearest there; 0: nothing
+    bool backdrop_depth = false;   ///< backdrops count in `depth`, and transparent items do not: with rgb of one sample, without ids
 };
 
 /// Meshes and textures that stay, and frames of them. One frame at a time; any number of renderers may draw at once.
