@@ -201,10 +201,10 @@ private:
             item.mesh = part.mesh;
             item.mirrors = part.mirrors;
             if (!is_soft)
-                item.world_from_object = matrix(in_double(g.axes[0]) * static_cast<double>(part.scale.x),
-                                                in_double(g.axes[1]) * static_cast<double>(part.scale.y),
-                                                in_double(g.axes[2]) * static_cast<double>(part.scale.z),
-                                                in_double(g.position) + in_double(g.axes[2]) * static_cast<double>(part.shift));
+                item.world_from_object = matrix(to_double(g.axes[0]) * static_cast<double>(part.scale.x),
+                                                to_double(g.axes[1]) * static_cast<double>(part.scale.y),
+                                                to_double(g.axes[2]) * static_cast<double>(part.scale.z),
+                                                to_double(g.position) + to_double(g.axes[2]) * static_cast<double>(part.shift));
             made_.frame.items.push_back(item);
         }
     }
@@ -225,7 +225,7 @@ private:
         item.material.planes[0] = {1, 0, 0, 0}, item.material.planes[1] = {0, 0, 1, 0}, item.material.planes[2] = {0, -1, 0, 0};
         const float radius = made_.far_z * kSkyShare / room_.scale();
         const auto r = static_cast<double>(radius);
-        item.world_from_object = matrix({r, 0, 0}, {0, r, 0}, {0, 0, r}, in_double(head_));
+        item.world_from_object = matrix({r, 0, 0}, {0, r, 0}, {0, 0, r}, to_double(head_));
         made_.frame.items.push_back(item);
         const auto plane = std::find_if(made_.geoms.begin(), made_.geoms.end(),
                                         [](const Geom& g) { return g.type == kPlane && g.size.x == 0 && g.size.y == 0; });
@@ -236,8 +236,8 @@ private:
         if (!in_planes) item.stage = FixedStage::haze;
         item.material.texture = -1;
         item.material.generated = false;
-        const Vec3d up = in_double(plane->axes[2]) * (r * static_cast<double>(height));
-        item.world_from_object = matrix(in_double(plane->axes[0]) * r, in_double(plane->axes[1]) * r, up, in_double(head_) - up);
+        const Vec3d up = to_double(plane->axes[2]) * (r * static_cast<double>(height));
+        item.world_from_object = matrix(to_double(plane->axes[0]) * r, to_double(plane->axes[1]) * r, up, to_double(head_) - up);
         made_.frame.items.push_back(item);
     }
 

@@ -3,14 +3,11 @@
 #pragma once
 
 #include "apps/engine/mujoco/model.hpp"
-#include "halflit/math.hpp"
+#include "sh/vec3d.hpp"
 
 #include <cmath>
 
 namespace halflit::engine::mujoco {
-
-[[nodiscard]] inline Vec3d in_double(Vec3f v) { return {v.x, v.y, v.z}; }
-[[nodiscard]] inline Vec3f in_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 /// By default, room and model are the same, and functions give exactly what they get.
 class Room {
@@ -36,10 +33,10 @@ public:
     /// mjvScene.scale, and the length in the room of the model's unit.
     [[nodiscard]] float scale() const { return static_cast<float>(scale_); }
     [[nodiscard]] float unit() const { return static_cast<float>(scale_ * stretch_); }
-    [[nodiscard]] Vec3f point_in_model(Vec3f p) const { return in_float(turned_back(in_double(p) - origin_) * (1 / (scale_ * stretch_))); }
-    [[nodiscard]] Vec3f direction_in_model(Vec3f d) const { return in_float(turned_back(in_double(d))); }
+    [[nodiscard]] Vec3f point_in_model(Vec3f p) const { return to_float(turned_back(to_double(p) - origin_) * (1 / (scale_ * stretch_))); }
+    [[nodiscard]] Vec3f direction_in_model(Vec3f d) const { return to_float(turned_back(to_double(d))); }
     /// Where MuJoCo believes that a point of the room is: another place if the rotation stretches.
-    [[nodiscard]] Vec3f head_in_model(Vec3f p) const { return in_float(turned_back(in_double(p) - origin_) * (stretch_ / scale_)); }
+    [[nodiscard]] Vec3f head_in_model(Vec3f p) const { return to_float(turned_back(to_double(p) - origin_) * (stretch_ / scale_)); }
 
 private:
     [[nodiscard]] Vec3d turned_back(Vec3d v) const { return {dot(axes_[0], v), dot(axes_[1], v), dot(axes_[2], v)}; }

@@ -1,17 +1,19 @@
 #include "apps/engine/mujoco/scene_reader.hpp"
 
 #include "apps/engine/mujoco/room.hpp"
+#include "shading/model/numbers.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
 namespace halflit::engine::mujoco {
 namespace {
+
+using shading::finite;
 
 /// One struct of the caller's array.
 class Record {
@@ -42,8 +44,6 @@ std::int32_t type_of(const Layout& layout, std::int32_t raw) {
         if (raw == number) return type;
     return raw <= kSdf || (raw >= kArrow && raw <= kLine) ? raw : kNotDrawn;
 }
-
-bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// A light's type: a byte that tells directional ones, or mjtLightType.
 LightKind kind_of(const Layout& layout, const Record& from) {
@@ -89,9 +89,9 @@ Result<Geom> read_geom(const Layout& layout, const Scene& scene, int index, std:
     }
     if (geom.use.texture >= texture_count) return wrong("texid", geom.use.texture, static_cast<std::size_t>(texture_count));
     const Vec4f c = geom.rgba;
-    if (!is_finite(geom.size) || !is_finite(geom.position) || !is_finite(geom.axes[0]) || !is_finite(geom.axes[1]) ||
-        !is_finite(geom.axes[2]) || !is_finite({c.x, c.y, c.z}) || !std::isfinite(c.w) ||
-        !is_finite({geom.emission, geom.specular, geom.shininess}) || !is_finite({geom.reflectance, geom.rbound, 0}))
+    if (!finite(geom.size) || !finite(geom.position) || !finite(geom.axes[0]) || !finite(geom.axes[1]) || !finite(geom.axes[2]) ||
+        !finite(Vec3f{c.x, c.y, c.z}) || !finite(c.w) || !finite(Vec3f{geom.emission, geom.specular, geom.shininess}) ||
+        !finite(Vec3f{geom.reflectance, geom.rbound, 0}))
         return fail(ErrorCode::bad_input, fmt::format("geom {}: a number is not finite", index));
     return geom;
 }
@@ -115,11 +115,11 @@ Light read_light(const Layout& layout, const Scene& scene, int index) {
 Result<Camera> read_camera(const Layout& layout, const std::byte* two) {
     const Record a(two, layout.camera_size, 0), b(two, layout.camera_size, 1);
     const auto mean = [&](std::int32_t place) { return 0.5f * (a.number(place) + b.number(place)); };
-    const auto sum = [&](std::int32_t place) { return in_double(a.vec3(place)) + in_double(b.vec3(place)); };
+    const auto sum = [&](std::int32_t place) { return to_double(a.vec3(place)) + to_double(b.vec3(place)); };
     const Vec3d forward = unit(sum(layout.camera_forward)), up = sum(layout.camera_up);
-    const Camera camera{.position = in_float(sum(layout.camera_pos) * 0.5),
-                        .forward = in_float(forward),
-                        .up = in_float(unit(up - forward * dot(forward, up))),
+    const Camera camera{.position = to_float(sum(layout.camera_pos) * 0.5),
+                        .forward = to_float(forward),
+                        .up = to_float(unit(up - forward * dot(forward, up))),
                         .center = mean(layout.camera_center),
                         .width = mean(layout.camera_width),
                         .bottom = mean(layout.camera_bottom),
@@ -127,9 +127,9 @@ Result<Camera> read_camera(const Layout& layout, const std::byte* two) {
                         .near_z = mean(layout.camera_near),
                         .far_z = mean(layout.camera_far),
                         .orthographic = a.get(layout.camera_orthographic, std::int32_t{0}) != 0};
-    if (is_finite(camera.position) && is_finite(camera.forward) && is_finite(camera.up) && is_finite({camera.center, camera.width, 0}) &&
-        camera.near_z > 1e-15f && camera.far_z > camera.near_z && camera.top > camera.bottom && std::isfinite(camera.far_z) &&
-        is_finite({camera.top, camera.bottom, camera.top - camera.bottom}))
+    if (finite(camera.position) && finite(camera.forward) && finite(camera.up) && finite(Vec3f{camera.center, camera.width, 0}) &&
+        camera.near_z > 1e-15f && camera.far_z > camera.near_z && camera.top > camera.bottom && finite(camera.far_z) &&
+        finite(Vec3f{camera.top, camera.bottom, camera.top - camera.bottom}))
         return camera;
     return fail(ErrorCode::usage, fmt::format("camera: from {} to {} along its view, from {} to {} in height", camera.near_z, camera.far_z,
                                               camera.bottom, camera.top));
