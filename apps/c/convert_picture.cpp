@@ -1,5 +1,6 @@
 // Conversions of what describes a picture. The constants and the layout of halflit.h are checked here too.
 #include "apps/c/convert_parts.hpp"
+#include "apps/c/versioned.hpp"
 #include "raster/settings_table.hpp"
 
 #include <algorithm>
@@ -9,12 +10,6 @@
 namespace halflit::c {
 namespace {
 
-// No padding: a member that a later version appends must not lie in what was padding before, which callers do not set.
-template <class T, class Last>
-constexpr bool ends_with(std::size_t offset, Last T::*) {
-    return offset + sizeof(Last) == sizeof(T);
-}
-#define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
 HALFLIT_ENDS_WITH(halflit_load_options, importers_count);
 HALFLIT_ENDS_WITH(halflit_animation, channels);
 HALFLIT_ENDS_WITH(halflit_counts, reserved);

@@ -23,16 +23,10 @@ struct halflit_mujoco {
 
 namespace {
 
-template <class T, class Last>
-constexpr bool ends_with(std::size_t offset, Last T::*) {
-    return offset + sizeof(Last) == sizeof(T);
-}
-#define ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
-ENDS_WITH(halflit_mujoco_layout, type_triangle);
-ENDS_WITH(halflit_mujoco_model, flex_facenum);
-ENDS_WITH(halflit_mujoco_scene, reserved);
-ENDS_WITH(halflit_mujoco_picture, depth_pass);
-#undef ENDS_WITH
+HALFLIT_ENDS_WITH(halflit_mujoco_layout, type_triangle);
+HALFLIT_ENDS_WITH(halflit_mujoco_model, flex_facenum);
+HALFLIT_ENDS_WITH(halflit_mujoco_scene, reserved);
+HALFLIT_ENDS_WITH(halflit_mujoco_picture, depth_pass);
 
 halflit_mujoco_layout default_layout() {
     const engine::mujoco::Layout from;

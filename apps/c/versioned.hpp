@@ -23,6 +23,13 @@ inline constexpr std::size_t kMostAddedBytes = 4096;
                                       "), which is " + std::to_string(own_size) + " in this version of halflit");
 }
 
+// No padding: a member that a later version appends must not lie in what was padding before, which callers do not set.
+template <class T, class Last>
+constexpr bool ends_with(std::size_t offset, Last T::*) {
+    return offset + sizeof(Last) == sizeof(T);
+}
+#define HALFLIT_ENDS_WITH(type, member) static_assert(ends_with(offsetof(type, member), &type::member))
+
 /// Whether a reserved member, or some, are 0.
 [[nodiscard]] constexpr bool is_zero(std::int32_t reserved) { return reserved == 0; }
 template <std::size_t N>
