@@ -62,6 +62,17 @@ std::string error_of(const Picture& picture) {
     return done ? "" : done.error().message;
 }
 
+/// Planes that are drawn with colors, and the same without.
+std::pair<Planes, Planes> with_and_without_rgb(const Scene& scene) {
+    std::pair<Planes, Planes> drawn;
+    Drawer by = drawer();
+    draw(by, drawn.first.picture(scene));
+    Picture alone = drawn.second.picture(scene);
+    alone.rgb = nullptr;
+    draw(by, alone);
+    return drawn;
+}
+
 }  // namespace
 
 TEST_CASE("mujoco drawer: depth, segids and objects of a box are those of its side", "[engine][mujoco]") {
@@ -156,12 +167,7 @@ TEST_CASE("mujoco drawer: of two geoms in one plane the later one is seen", "[en
         raw.look_from({0, -4, 0}, {0, 1, 0});
         for (const bool wide : {swapped, !swapped}) raw.add(kBox, {0, 0, 0}, {wide ? 1.0f : 0.5f, 1, wide ? 1.0f : 0.5f});
         const Scene scene = raw.scene();
-        Planes got, alone;
-        Drawer by = drawer();
-        draw(by, got.picture(scene));
-        Picture picture = alone.picture(scene);
-        picture.rgb = nullptr;
-        draw(by, picture);
+        const auto [got, alone] = with_and_without_rgb(scene);
         CHECK(got.segid[kMiddle] == 1);
         CHECK(alone.segid == got.segid);
     }
@@ -269,12 +275,7 @@ TEST_CASE("mujoco drawer: ids are the same with colors and without, in mirrors a
         if (!mirrors) raw.set(0, at.geom_rgba, Vec4f{1, 1, 1, 0.5f});
         raw.add(kBox, {0, 0, 0}, {1, 1, 1});
         const Scene scene = raw.scene();
-        Planes with_rgb, alone;
-        Drawer by = drawer();
-        draw(by, with_rgb.picture(scene));
-        Picture picture = alone.picture(scene);
-        picture.rgb = nullptr;
-        draw(by, picture);
+        const auto [with_rgb, alone] = with_and_without_rgb(scene);
         CHECK(alone.segid[kMiddle] == 1);
         CHECK(with_rgb.segid == alone.segid);
         CHECK(with_rgb.object == alone.object);
