@@ -33,7 +33,7 @@ halflit_mujoco_layout default_layout() {
     halflit_mujoco_layout to{};
     to.size = sizeof to;
 #define WHOLE(name, bytes) to.name = from.name;
-#define MEMBER(name, whole, bytes, place, is_needed) to.name = from.name;
+#define MEMBER(type, name, count, whole, place, is_needed) to.name = from.name;
 #include "apps/engine/mujoco/layout_members.def"
     to.type_skin = from.type_skin, to.type_flex = from.type_flex;
     to.type_linebox = from.type_linebox, to.type_triangle = from.type_triangle;
@@ -80,7 +80,7 @@ Result<engine::mujoco::Model> read_model(const halflit_mujoco_model* given) {
     const auto layout = read_struct(model->layout, default_layout(), "halflit_mujoco_layout");
     if (!layout) return tl::unexpected<Error>(layout.error());
 #define WHOLE(name, bytes) to.layout.name = layout->name;
-#define MEMBER(name, whole, bytes, place, is_needed) to.layout.name = layout->name;
+#define MEMBER(type, name, count, whole, place, is_needed) to.layout.name = layout->name;
 #include "apps/engine/mujoco/layout_members.def"
     to.layout.type_skin = layout->type_skin, to.layout.type_flex = layout->type_flex;
     to.layout.type_linebox = layout->type_linebox, to.layout.type_triangle = layout->type_triangle;

@@ -18,7 +18,7 @@ set(HALFLIT_ENGINE_JSON request/camera_formats request/lobe_model job/aov_names 
 set(HALFLIT_ENGINE_FILMS film/gif_palette film/gif_writer film/apng_writer film/webp_writer)
 set(HALFLIT_ENGINE_SYSTEM basics/output_folder job/standard_input film/film_writer)
 set(HALFLIT_ENGINE_SERVER answers/answer_schema calls/answer_limits calls/kept_scenes)
-# MuJoCo's scenes, for the C interface; compiled for speed too.
+# MuJoCo's scenes; compiled for speed too.
 set(HALFLIT_ENGINE_MUJOCO mujoco/model mujoco/shapes mujoco/model_meshes mujoco/scene_reader mujoco/geom_parts mujoco/frame mujoco/drawer)
 foreach(part PIXELS WORDS JSON FILMS SYSTEM SERVER MUJOCO)
     list(TRANSFORM HALFLIT_ENGINE_${part} APPEND .cpp)

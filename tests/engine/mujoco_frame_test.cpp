@@ -203,7 +203,7 @@ TEST_CASE("mujoco frame: members are where the layout says", "[engine][mujoco]")
     Layout other;  // every member elsewhere, as in another version
     other.geom_size += 64, other.light_size += 64, other.camera_size += 64;
 #define WHOLE(name, bytes)
-#define MEMBER(name, whole, bytes, place, is_needed) other.name = place < 0 ? place : (place + 36);
+#define MEMBER(type, name, count, whole, place, is_needed) other.name = place < 0 ? place : (place + 36);
 #include "apps/engine/mujoco/layout_members.def"
     other.geom_texid = other.geom_texuniform = other.geom_texrepeat = -1;
     REQUIRE(check_layout(other));

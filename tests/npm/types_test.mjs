@@ -9,7 +9,7 @@ const found = versions_of("typescript");
 if (found.length === 0) skip("there is no TypeScript in HALFLIT_NPM_TOOLS");
 await begin();
 
-const kCommon = `import { HalflitError, init, load, render, type Picture, type RenderOptions } from "halflit";
+const kCommon = `import { HalflitError, MujocoRenderer, init, load, render, type Picture, type RenderOptions } from "halflit";
 const options: RenderOptions = { width: 320, height: 240, view: "iso", samples: 8, shadows: "hard", ownLobes: false, light: ["a", "b"], cameraPosition: [1, 2, 3], ground: true, maxError: 0.5 };
 const files = { "a.bin": new ArrayBuffer(3), "b.txt": "text", "c.png": null };
 const picture: Picture = await render(new Uint8Array(1), { ...options, files: async (name: string) => new TextLike(name).bytes() });
@@ -24,12 +24,16 @@ const pixels: Uint8ClampedArray = picture.pixels, file: Uint8Array = picture.png
   await scene.render({ shadows: "purple" });
   await scene.render(null);
 }
+const simulator = await MujocoRenderer.create({}, {}, { look: "3.3.3" }), { depth } = simulator.render({}, { width: 84, height: 84, depth: true });
+const nearest: number | undefined = depth?.[0];
+// @ts-expect-error: 1 or 4
+simulator.render({}, { samples: 2 });
 // @ts-expect-error: the name of a file is not its bytes
 await load("model.glb");
 // @ts-expect-error: a picture has no such file
 picture.encode("pfm");
 if (new HalflitError("", 5).code === 5) await init({ simd: false, wasm: new Uint8Array(3) });
-export { pixels, file, buffer };
+export { pixels, file, buffer, nearest };
 `;
 // A script of CommonJS.
 const kScript = `import { render } from "halflit";

@@ -1,8 +1,12 @@
 """Models and scenes of MuJoCo that are made by hand, of any version: what its arrays have, without MuJoCo."""
+import hashlib
+import json
+import sys
 import types
 
 import numpy as np
 
+import halflit.compat.mujoco as compat
 from halflit.compat.mujoco._layouts import layout_of
 
 PLANE, SPHERE, BOX, MESH = 0, 2, 6, 7
@@ -91,3 +95,51 @@ def model(extent=4.0, samples=0, **members):
     )
     numbers = "ngeom nmat nmesh nmeshvert nmeshtexvert nmeshface nmeshgraph nhfield nhfielddata ntex ntexdata nskin nskinvert nskintexvert"
     return part(vis=visual, stat=part(extent=extent), **{**dict.fromkeys(numbers.split(), 0), **members})
+
+
+def _plain(value):
+    """What JSON has, of objects and arrays."""
+    if isinstance(value, types.SimpleNamespace):
+        return {name: _plain(one) for name, one in vars(value).items()}
+    if isinstance(value, list) and value and isinstance(value[0], types.SimpleNamespace):
+        return [_plain(one) for one in value]
+    return np.ravel(value).tolist() if isinstance(value, (list, np.ndarray)) else value
+
+
+def _main():
+    """Prints a scene of MuJoCo 3.3.8, its model and the hashes of its pictures, for other front ends to draw."""
+    version, size = (3, 3, 8), 96
+    sys.modules["mujoco"] = types.SimpleNamespace(__version__=".".join(map(str, version)))
+    rng = np.random.default_rng(7)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], np.float32)
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.int32)
+    skin, face_corners = corners + np.float32([-3, 1, 1]), corners[faces].reshape(-1, 3) + np.float32([-3, -3, 0])
+    used = model(
+        samples=4, ngeom=1, nmat=1, nmesh=1, nmeshvert=4, nmeshnormal=4, nmeshface=4, ntex=1, ntexdata=6 * 8 * 8 * 3, nskin=1, nskinvert=4,
+        nskinface=4, nflex=1, geom_type=[PLANE], geom_matid=[0], geom_size=[[3, 3, 0.1]], mat_texid=np.array([[-1, 0] + 8 * [-1]]),
+        mat_texuniform=[0], mat_texrepeat=[[2, 2]], mesh_vertadr=[0], mesh_vertnum=[4], mesh_normaladr=[0], mesh_texcoordadr=[-1],
+        mesh_faceadr=[0], mesh_facenum=[4], mesh_graphadr=[-1], mesh_vert=corners, mesh_normal=np.tile(np.float32([0, 0, 1]), (4, 1)),
+        mesh_face=faces, mesh_facenormal=faces, mesh_facetexcoord=faces, tex_type=[0], tex_width=[8], tex_height=[48], tex_nchannel=[3],
+        tex_colorspace=[2], tex_adr=[0], tex_data=rng.integers(0, 256, 6 * 8 * 8 * 3, np.uint8), skin_vertadr=[0], skin_vertnum=[4],
+        skin_texcoordadr=[-1], skin_faceadr=[0], skin_facenum=[4], skin_face=faces,
+    )  # fmt: skip
+    scene = Scene(version).shine(0.2, 0.5, (0.3, 0.2, -0.9)).look((1, -6, 5), (-0.15, 0.77, -0.62), (-0.12, 0.61, 0.78))
+    scene.lights[0].castshadow, scene.lights[0].specular = 1, np.full(3, 0.4)
+    scene.flags[list(FLAGS[name] for name in ("shadow", "reflection"))] = 1
+    scene.add(PLANE, (3, 3, 0.1), matid=0, reflectance=0.3, modelrbound=0)
+    scene.add(SPHERE, (0.7, 0.7, 0.7), (1, 0, 1), (0.8, 0.3, 0.1, 1), specular=0.5, shininess=0.5, modelrbound=0.7)
+    scene.add(BOX, (0.5, 0.4, 0.6), (-1, -1, 0.8), (0.1, 0.6, 0.9, 0.5), modelrbound=1)
+    scene.add(MESH, (1, 1, 1), (-0.5, 1, 0.5), (0.9, 0.9, 0.2, 1), dataid=0, modelrbound=1)
+    scene.add(106, (1, 1, 1), rgba=(0.2, 0.9, 0.3, 1), objid=0).add(105, (1, 1, 1), rgba=(0.9, 0.3, 0.8, 1), objid=0)
+    scene.skinvert, scene.skinnormal = skin.ravel(), np.tile(np.float32([0, 0, 1]), 4)
+    scene.flexface, scene.flexnormal = face_corners.ravel(), np.tile(np.float32([0, 0.6, 0.8]), len(face_corners))
+    scene.flexfacenum, scene.flexfaceused = np.array([4], np.int32), np.array([4], np.int32)
+    planes = compat.render_batch([scene], compat.MjrContext(used), size, size, depth=True, segmentation=True)
+    soft = {name: getattr(scene, name) for name in ("skinvert", "skinnormal", "flexface", "flexnormal", "flexfacenum", "flexfaceused")}
+    told = {"model": used, "scene": types.SimpleNamespace(**vars(scene.without_memory()), **soft), "size": size}
+    hashes = {name: hashlib.sha256(plane.tobytes()).hexdigest() for name, plane in planes.items()}
+    print(json.dumps({**{name: _plain(value) for name, value in told.items()}, "sha256": hashes}))
+
+
+if __name__ == "__main__":
+    _main()

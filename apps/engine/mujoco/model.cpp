@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -11,9 +12,9 @@ namespace {
 
 // Later releases draw both sides into shadow maps, with the offset that they set where OpenGL has clip control.
 constexpr Look kLooks[] = {
-    {"2.2.2", false, true, 0.0f, 1.0f},
-    {"3.3.2", false, false, 1.5f, 4.0f},
-    {"3.3.3", true, false, 1.5f, 4.0f},
+    {"2.2.2", 20200, false, true, 0.0f, 1.0f},
+    {"3.3.2", 30000, false, false, 1.5f, 4.0f},
+    {"3.3.3", 30303, true, false, 1.5f, 4.0f},
 };
 
 struct MemberRow {
@@ -24,7 +25,7 @@ struct MemberRow {
     bool is_needed;
 };
 constexpr MemberRow kMembers[] = {
-#define MEMBER(name, whole, bytes, place, is_needed) {#name, &Layout::name, &Layout::whole, bytes, is_needed},
+#define MEMBER(type, name, count, whole, place, is_needed) {#name, &Layout::name, &Layout::whole, sizeof(type) * count, is_needed},
 #include "apps/engine/mujoco/layout_members.def"
 };
 
@@ -53,9 +54,22 @@ constexpr int kLeastShadowMap = 4, kLargestShadowMap = 16384;  // texels on a si
 }  // namespace
 
 Result<Look> look_of(std::string_view name) {
+    // Two or three numbers of at most two digits.
+    int parts[3] = {}, count = 0;
+    bool is_release = true;
+    const char *at = name.data(), *const end = at + name.size();
+    while (is_release && at != end + 1) {
+        const auto [rest, error] = std::from_chars(at, end, parts[count]);
+        is_release = error == std::errc{} && *at != '-' && rest <= at + 2 && ++count <= 3 && (rest == end || (*rest == '.' && count < 3));
+        at = rest + 1;
+    }
+    const int release = is_release && count >= 2 ? 10000 * parts[0] + 100 * parts[1] + parts[2] : 0;
+    const Look* found = nullptr;
     for (const Look& look : kLooks)
-        if (look.name == name) return look;
-    return fail(ErrorCode::usage, fmt::format("look: '{}', expected 2.2.2, 3.3.2 or 3.3.3", name));
+        if (look.since <= release) found = &look;
+    if (found != nullptr && parts[0] <= 3) return *found;
+    return fail(ErrorCode::usage, fmt::format("look: '{}', expected a release of MuJoCo from 2.2 to 3, such as {}, {} or {}", name,
+                                              kLooks[0].name, kLooks[1].name, kLooks[2].name));
 }
 
 Result<void> check_layout(const Layout& layout) {

@@ -15,7 +15,7 @@ namespace halflit::engine::mujoco {
 /// structs; mjvGeom.size is `geom_scale`.
 struct Layout {
 #define WHOLE(name, bytes) std::int32_t name = bytes;
-#define MEMBER(name, whole, bytes, place, is_needed) std::int32_t name = place;
+#define MEMBER(type, name, count, whole, place, is_needed) std::int32_t name = place;
 #include "apps/engine/mujoco/layout_members.def"
     /// Numbers of mjtGeom that differ among versions; -1: there is none.
     std::int32_t type_skin = 104, type_flex = -1, type_linebox = -1, type_triangle = -1;
@@ -86,13 +86,14 @@ struct Scene {
 
 /// Rules that differ among releases.
 struct Look {
-    std::string_view name;
+    std::string_view name;              ///< the last release with these rules, or the first without a later one
+    int since;                          ///< 30303: 3.3.3 is the first release with them
     bool decodes_srgb;                  ///< textures that say so are decoded
     bool back_faces_alone;              ///< cast shadows
     float offset_factor, offset_units;  ///< of what casts shadows, away from the light
 };
 
-/// Fails (usage) for a name that is not in the table.
+/// Of a release: "2.2" to "3", with any number of parts. Fails (usage) for another text.
 [[nodiscard]] Result<Look> look_of(std::string_view name);
 
 }  // namespace halflit::engine::mujoco

@@ -118,6 +118,31 @@ export class Scene implements Disposable {
   [Symbol.dispose](): void;
 }
 
+export interface MujocoPicture {
+  /** Colours. Its report has `pixel_hash`, `samples` and `look`. */
+  picture: Picture;
+  /** Distances along the view, one a pixel, rows from the top; the far plane's where nothing is. null: not asked for. */
+  depth: Float32Array | null;
+  /** objid and objtype, two a pixel; -1: nothing. null: not asked for. */
+  segmentation: Int32Array | null;
+}
+
+/** Draws scenes of the simulator MuJoCo (mujoco-js or @mujoco/mujoco) as its own classic renderer does. It copies the model's shapes and
+ *  textures when it is made. */
+export class MujocoRenderer implements Disposable {
+  private constructor();
+  /** mujoco: the simulator's module. look: the release whose pictures are made, "2.2.2" to "3" (default: the module's). */
+  static create(mujoco: object, model: object, options?: { look?: string } | null): Promise<MujocoRenderer>;
+  /** Draws what mjv_updateScene() left in an MjvScene: 320 x 240 by default. samples: 1 or 4, of the colours (default: by the model's
+   *  offsamples). */
+  render(scene: object, options?: {
+    width?: number; height?: number; samples?: 1 | 4; depth?: boolean; segmentation?: boolean;
+  } | null): MujocoPicture;
+  /** Gives its memory back. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
 /** `code` is the exit code that the program has for the error. */
 export class HalflitError extends Error {
   constructor(message: string, code: number);

@@ -23,12 +23,12 @@ export class HalflitError extends Error {
   }
 }
 
-const usage = (message) => new HalflitError(message, kUsage);
+export const usage = (message) => new HalflitError(message, kUsage);
 const line_of = (error) => String(error?.message ?? error).split("\n")[0];
 const read_as = (name) => `read it first, as by await readFile(${name}) of node:fs/promises, or await fetch(${name})`;
 
 // null and undefined are no options.
-function options_of(given) {
+export function options_of(given) {
   if (given === null || given === undefined) return {};
   if (Array.isArray(given) || typeof given !== "object")
     throw usage(`options: expected an object, found ${Array.isArray(given) ? "an array" : typeof given}`);
@@ -86,7 +86,7 @@ export function init(options) {
   return started.then((core) => ({ version, pixelEpoch, isa: core.UTF8ToString(core._halflit_isa()) }));
 }
 
-async function running() {
+export async function running() {
   if (!started) await init();
   const core = await started;
   if (!core.ended && !core.full) return core;
@@ -107,7 +107,7 @@ export async function has_ended() {
 }
 
 // Calls the module. What it throws (a trap, or memory that cannot grow) ends it: its scenes are lost, and new ones get a new module.
-function call(core, work) {
+export function call(core, work) {
   if (core.ended) throw new HalflitError("the module has ended, and its scenes with it", kLimit);
   try {
     return work(core);
@@ -119,18 +119,18 @@ function call(core, work) {
   }
 }
 
-function out_of_memory(core) {
+export function out_of_memory(core) {
   core.full = true;
   return new HalflitError("out of memory", kLimit);
 }
 
-function allocated(core, size) {
+export function allocated(core, size) {
   const place = core._halflit_allocate(size || 1);
   if (!place) throw out_of_memory(core);
   return place;
 }
 
-function with_text(core, text, use) {
+export function with_text(core, text, use) {
   const size = core.lengthBytesUTF8(text) + 1, place = allocated(core, size);
   core.stringToUTF8(text, place, size);
   try {
@@ -140,7 +140,7 @@ function with_text(core, text, use) {
   }
 }
 
-const copied = (core, place, size) => core.HEAPU8.slice(place, place + size);
+export const copied = (core, place, size) => core.HEAPU8.slice(place, place + size);
 
 // ---- options ------------------------------------------------------------------------------------------------------------
 const camel = (name) => name.replace(/^-+/, "").replace(/-([a-z0-9])/g, (_, letter) => letter.toUpperCase());

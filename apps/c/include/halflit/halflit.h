@@ -1134,8 +1134,8 @@ typedef struct halflit_mujoco_picture {
 } halflit_mujoco_picture;
 HALFLIT_C_API int32_t halflit_mujoco_picture_init(halflit_mujoco_picture* picture, size_t size);
 
-/// Makes the shapes and textures of a model. look: the release whose pictures are made: "2.2.2", "3.3.2" or "3.3.3" (that and later ones
-/// decode textures that are sRGB). execution may be null: the defaults; its on_tile and progress are not called. Fails (bad input) for
+/// Makes the shapes and textures of a model. look: the release whose pictures are made, "2.2" or later: 3.0 changed shadows, 3.3.3 decodes
+/// textures that are sRGB. execution may be null: the defaults; its on_tile and progress are not called. Fails (bad input) for
 /// arrays that contradict each other, (limit) for more than 2^26 corners of triangles, or 2^22 triangles of flexes.
 HALFLIT_C_API int32_t halflit_mujoco_create(const halflit_mujoco_model* model, const char* look, const halflit_execution* execution,
                                             halflit_mujoco** mujoco);
