@@ -20,7 +20,19 @@ using namespace halflit::engine::mujoco;
 namespace {
 
 /// Arrays of a scene. transform: enabletransform, translate, rotate, scale, as floats.
-enum SceneArray { kGeoms, kLights, kCameras, kFlags, kTransform, kSkinVert, kSkinNormal, kFlexFaceUsed, kFlexFace, kFlexNormal, kSceneArrays };
+enum SceneArray {
+    kGeoms,
+    kLights,
+    kCameras,
+    kFlags,
+    kTransform,
+    kSkinVert,
+    kSkinNormal,
+    kFlexFaceUsed,
+    kFlexFace,
+    kFlexNormal,
+    kSceneArrays
+};
 constexpr std::size_t kTransformNumbers = 9;
 
 struct Mujoco {
@@ -74,20 +86,20 @@ Result<void> draw(Mujoco& by, std::size_t geoms, std::size_t lights, Picture pic
         by.arrays[kCameras].size() < 2 * size(by.layout.camera_size) || by.arrays[kFlags].size() < kFlagCount ||
         by.arrays[kTransform].size() < kTransformNumbers * sizeof(float))
         return fail(ErrorCode::usage, "the scene's arrays are shorter than its counts say");
-    if (!by.holds(kSkinVert, by.skin_vertices, 12) || !by.holds(kSkinNormal, by.skin_vertices, 12) || !by.holds(kFlexFaceUsed, by.flexes, 4) ||
-        !by.holds(kFlexFace, by.flex_faces, 36) || !by.holds(kFlexNormal, by.flex_faces, 36))
+    if (!by.holds(kSkinVert, by.skin_vertices, 12) || !by.holds(kSkinNormal, by.skin_vertices, 12) ||
+        !by.holds(kFlexFaceUsed, by.flexes, 4) || !by.holds(kFlexFace, by.flex_faces, 36) || !by.holds(kFlexNormal, by.flex_faces, 36))
         return fail(ErrorCode::usage, "the scene has other skins or flexes than the renderer's model");
     engine::mujoco::Scene scene{.geoms = by.array<std::byte>(kGeoms),
-                .lights = by.array<std::byte>(kLights),
-                .camera = by.array<std::byte>(kCameras),
-                .flags = by.array<std::uint8_t>(kFlags),
-                .skinvert = by.array<float>(kSkinVert),
-                .skinnormal = by.array<float>(kSkinNormal),
-                .flexfaceused = by.array<std::int32_t>(kFlexFaceUsed),
-                .flexface = by.array<float>(kFlexFace),
-                .flexnormal = by.array<float>(kFlexNormal),
-                .ngeom = static_cast<std::int32_t>(geoms),
-                .nlight = static_cast<std::int32_t>(lights)};
+                                .lights = by.array<std::byte>(kLights),
+                                .camera = by.array<std::byte>(kCameras),
+                                .flags = by.array<std::uint8_t>(kFlags),
+                                .skinvert = by.array<float>(kSkinVert),
+                                .skinnormal = by.array<float>(kSkinNormal),
+                                .flexfaceused = by.array<std::int32_t>(kFlexFaceUsed),
+                                .flexface = by.array<float>(kFlexFace),
+                                .flexnormal = by.array<float>(kFlexNormal),
+                                .ngeom = static_cast<std::int32_t>(geoms),
+                                .nlight = static_cast<std::int32_t>(lights)};
     const float* const transform = by.array<float>(kTransform);
     scene.enabletransform = transform[0] != 0;
     std::copy_n(transform + 1, 3, scene.translate);
@@ -125,9 +137,9 @@ EMSCRIPTEN_KEEPALIVE Mujoco* halflit_mujoco_open() { return new Mujoco; }
 EMSCRIPTEN_KEEPALIVE void halflit_mujoco_close(Mujoco* mujoco) { delete mujoco; }
 EMSCRIPTEN_KEEPALIVE const char* halflit_mujoco_text(const Mujoco* mujoco) { return mujoco->text.c_str(); }
 
-/// Makes shapes and textures. places: sizes of mjvGeom, mjvLight and mjvGLCamera, then the bytes of each member in the table's order, -1 for
-/// none, then the numbers of skins, flexes, line boxes and triangles in mjtGeom. numbers: the table's, then ntexdata and the colors of fog and
-/// haze. arrays: the table's; their lengths are as the counts say.
+/// Makes shapes and textures. places: sizes of mjvGeom, mjvLight and mjvGLCamera, then the bytes of each member in the table's order, -1
+/// for none, then the numbers of skins, flexes, line boxes and triangles in mjtGeom. numbers: the table's, then ntexdata and the colors of
+/// fog and haze. arrays: the table's; their lengths are as the counts say.
 EMSCRIPTEN_KEEPALIVE int halflit_mujoco_read(Mujoco* mujoco, const std::int32_t* places, const double* numbers, const void* const* arrays,
                                              const char* release) {
     return web::attempt(mujoco->text, [&]() -> Result<void> {

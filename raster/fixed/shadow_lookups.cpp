@@ -5,6 +5,7 @@
 #include "sh/trig.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace halflit::raster {
 namespace {
@@ -71,14 +72,22 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     };
     const auto tiles = static_cast<std::size_t>(view.tile_count());
     const float units = rule.offset_units * (1.0f / 16777216.0f);
-    first_.assign(tiles + 1, 0);
+    constexpr std::int16_t kMost = std::numeric_limits<std::int16_t>::max();
+    tiles_.assign(tiles + 1, {0, kFarAway, kMost, kMost, -1, -1});
     for (const std::span<ShadowLookup> group : groups)
-        for (const ShadowLookup& of : group) ++first_[tile_of(of.place) + 1];
-    for (std::size_t t = 0; t < tiles; ++t) first_[t + 1] += first_[t];
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    const std::size_t size = first_[tiles] + kRoom;
+        for (const auto& [fragment, code, at] : group) {
+            OcclusionTile& tile = tiles_[tile_of(at)];
+            const auto x = static_cast<std::int16_t>(at.x), y = static_cast<std::int16_t>(at.y);
+            tile.farthest = std::min(tile.farthest, at.z);
+            tile.x0 = std::min(tile.x0, x), tile.y0 = std::min(tile.y0, y), tile.x1 = std::max(tile.x1, x), tile.y1 = std::max(tile.y1, y);
+            ++(&tile)[1].first;
+        }
+    for (std::size_t t = 0; t < tiles; ++t) tiles_[t + 1].first += tiles_[t].first;
+    std::vector<std::uint32_t> next(tiles);
+    std::transform(tiles_.begin(), tiles_.end() - 1, next.begin(), [](const OcclusionTile& tile) { return tile.first; });
+    const std::size_t size = tiles_[tiles].first + kRoom;
     x_.resize(size), y_.resize(size), z_.resize(size);
-    hidden_.assign(size, 0), farthest_.assign(tiles, kFarAway);
+    hidden_.assign(size, 0);
     place_.clear();
     for (const std::span<ShadowLookup> group : groups)
         for (const auto& [fragment, code, at] : group) {
@@ -86,20 +95,9 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
             const std::uint32_t i = next[t]++;
             place_.push_back(i);
             x_[i] = (at.x - x0) & (side - 1), y_[i] = (at.y - y0) & (side - 1), z_[i] = at.z;
-            farthest_[t] = std::min(farthest_[t], at.z);
         }
-    const OcclusionGrid grid{x0,
-                             y0,
-                             side,
-                             view.tiles_x,
-                             first_.data(),
-                             x_.data(),
-                             y_.data(),
-                             z_.data(),
-                             farthest_.data(),
-                             rule.offset_factor,
-                             units,
-                             hidden_.data()};
+    const OcclusionGrid grid{
+        x0, y0, side, view.tiles_x, tiles_.data(), x_.data(), y_.data(), z_.data(), rule.offset_factor, units, hidden_.data()};
     if (auto ok = geometry_.occlude(casters, view, grid, kernels, executor); !ok) return ok;
     std::size_t i = 0;
     for (const std::span<ShadowLookup> group : groups)

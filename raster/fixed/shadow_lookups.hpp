@@ -45,9 +45,9 @@ public:
 
 private:
     ViewGeometry geometry_;
-    std::vector<std::uint32_t> first_;          ///< of each tile of the map, its first lookup; one more at the end
+    std::vector<OcclusionTile> tiles_;          ///< one more at the end
     std::vector<std::int32_t> x_, y_, hidden_;  ///< of lookups by tile
-    std::vector<float> z_, farthest_;
+    std::vector<float> z_;
     std::vector<std::uint32_t> place_;  ///< of each lookup, group after group
 };
 

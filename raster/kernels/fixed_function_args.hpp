@@ -78,13 +78,19 @@ struct CodeArgs {
     std::uint32_t* codes;  ///< red | green << 8 | blue << 16 | alpha << 24; whole vectors are written
 };
 
+/// The places of a tile of a light's view: from `first` to the next tile's.
+struct OcclusionTile {
+    std::uint32_t first;
+    float farthest;               ///< least of their depths; 2: there are none
+    std::int16_t x0, y0, x1, y1;  ///< pixels of the view that hold them, both included
+};
+
 /// Places in a light's view, at middles of texels, by tiles of it.
 struct OcclusionGrid {
     int x0, y0, tile_size, tiles_x;     ///< pixel where the first tile begins; side of a tile; tiles in a row
-    const std::uint32_t* first;         ///< of each tile its first place; one more at the end
+    const OcclusionTile* tiles;         ///< one more at the end
     const std::int32_t *x, *y;          ///< pixels, from the tile's first one; these arrays have room for a whole vector at the end
     const float* z;                     ///< reversed depth
-    const float* farthest;              ///< of each tile: least of its depths; 2: it has no places
     float offset_factor, offset_units;  ///< depths of triangles are moved away from the light by factor times the slope, and this
     std::int32_t* hidden;               ///< set to -1 where a triangle is nearer
 };

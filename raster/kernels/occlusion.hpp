@@ -38,12 +38,15 @@ HALFLIT_INLINE bool edges_in_tile(const Occluder& of, int left, int top, int siz
 inline void occlude(const OcclusionGrid& grid, const ScreenVertex& v0, const ScreenVertex& v1, const ScreenVertex& v2, int tile_x0,
                     int tile_y0, int tile_x1, int tile_y1) {
     const float nearest = grid.offset_factor == 0.0f ? vmax(vmax(v0.z, v1.z), v2.z) - grid.offset_units : 2.0f;
+    // Texels whose middles are in the triangle's box.
+    const int x0 = (min3(v0.x, v1.x, v2.x) + 255) >> 8, x1 = max3(v0.x, v1.x, v2.x) >> 8;
+    const int y0 = (min3(v0.y, v1.y, v2.y) + 255) >> 8, y1 = max3(v0.y, v1.y, v2.y) >> 8;
     Occluder of;
     bool has_edges = false;
     for (int ty = tile_y0; ty <= tile_y1; ++ty)
         for (int tx = tile_x0; tx <= tile_x1; ++tx) {
-            const int tile = ty * grid.tiles_x + tx;
-            if (!(nearest > grid.farthest[tile])) continue;
+            const OcclusionTile& tile = grid.tiles[ty * grid.tiles_x + tx];
+            if (!(nearest > tile.farthest) || x0 > tile.x1 || x1 < tile.x0 || y0 > tile.y1 || y1 < tile.y0) continue;
             if (!has_edges) {
                 of.v0 = &v0, of.v1 = &v1, of.v2 = &v2;
                 of.edges[0] = make_edge(v0, v1), of.edges[1] = make_edge(v1, v2), of.edges[2] = make_edge(v2, v0);
@@ -55,8 +58,8 @@ inline void occlude(const OcclusionGrid& grid, const ScreenVertex& v0, const Scr
             const int left = grid.x0 + tx * grid.tile_size, top = grid.y0 + ty * grid.tile_size;
             BoxEdge edge[3];
             if (!edges_in_tile(of, left, top, grid.tile_size, edge)) continue;
-            const std::uint32_t end = grid.first[tile + 1];
-            for (std::uint32_t i = grid.first[tile]; i < end; i += kWidth) {
+            const std::uint32_t end = (&tile)[1].first;
+            for (std::uint32_t i = tile.first; i < end; i += kWidth) {
                 const I x = load(grid.x + i), y = load(grid.y + i);
                 I outside = I(static_cast<std::int32_t>(end - i) - 1) - iota_i();
                 for (const BoxEdge& e : edge) outside = outside | ((I(e.e0) + I(e.a) * x) + I(e.b) * y);
