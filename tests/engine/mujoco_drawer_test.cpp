@@ -267,13 +267,13 @@ TEST_CASE("mujoco drawer: a host's loop that leaves pictures out is an error, an
 
 TEST_CASE("mujoco drawer: ids are the same with colors and without, in mirrors and behind glass", "[engine][mujoco]") {
     const Layout at;
-    for (const bool mirrors : {true, false}) {
-        INFO("mirrors " << mirrors);
+    for (const auto& [mirrors, special] : {std::pair{true, 0}, {true, 1}, {false, 0}, {false, 1}}) {
+        INFO("mirrors " << mirrors << ", geom " << special);
         RawScene raw = box_scene();
-        // The first of two that are in one plane is a mirror or transparent, which the colors' pass draws later.
-        raw.set(0, at.geom_reflectance, mirrors ? 0.5f : 0.0f);
-        if (!mirrors) raw.set(0, at.geom_rgba, Vec4f{1, 1, 1, 0.5f});
         raw.add(kBox, {0, 0, 0}, {1, 1, 1});
+        // One of two that are in one plane is a mirror or transparent, which the colors' pass draws later.
+        if (mirrors) raw.set(special, at.geom_reflectance, 0.5f);
+        if (!mirrors) raw.set(special, at.geom_rgba, Vec4f{1, 1, 1, 0.5f});
         const Scene scene = raw.scene();
         const auto [with_rgb, alone] = with_and_without_rgb(scene);
         CHECK(alone.segid[kMiddle] == 1);

@@ -82,7 +82,8 @@ public:
         if (request_.pass == Pass::color) {
             const std::size_t opaque = made_.frame.items.size();
             add_transparent();
-            made_.has_segments = mirror_ < 0 && made_.frame.items.size() == opaque;
+            // Of equal depths, the same geom is seen in both passes where the mirror comes first.
+            made_.has_segments = mirror_ <= 0 && made_.frame.items.size() == opaque;
         }
         if (flags_[kFog]) {
             made_.frame.fog_start = model_.fog_start / room_.unit(), made_.frame.fog_end = model_.fog_end / room_.unit();
