@@ -114,6 +114,11 @@ TEST_CASE("mujoco model: cubes of one picture have it on six faces", "[engine][m
     CHECK(!cube.decodes_srgb);
     REQUIRE(cube.rgb.size() == 6 * 12);
     for (std::size_t i = 0; i < cube.rgb.size(); ++i) CHECK(cube.rgb[i] == small.texels[i % 12]);
+    Model large = small.model;
+    const std::int32_t side[1] = {8192};
+    large.tex_width = large.tex_height = side;
+    large.ntexdata = std::uint64_t{1} << 40;
+    CHECK(make_textures(large, *look_of("3.3.3")).error().message == "texture 0: more than 2^27 texels with those before it");
     const std::int32_t srgb[1] = {2};
     small.model.tex_colorspace = srgb;
     CHECK(make_textures(small.model, *look_of("3.3.3"))->front().decodes_srgb);

@@ -225,6 +225,8 @@ TEST_CASE("models: formats that are not read are named, with a way to one that i
                                                          {"LASF", "LAS"},
                                                          {"ASTM-E57", "E57"},
                                                          {"<?xml version=\"1.0\"?><COLLADA>", "COLLADA"},
+                                                         {"<!-- arm --><mujoco model=\"arm\">", "MuJoCo"},
+                                                         {"<?xml version=\"1.0\"?><robot name=\"arm\">", "URDF"},
                                                          {"BLENDER-v300", "Blender"},
                                                          {"#usda 1.0", "USD"},
                                                          {"PXR-USDC", "USD"}};

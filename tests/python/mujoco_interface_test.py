@@ -212,6 +212,17 @@ class Pictures(unittest.TestCase):
         drawn.mjr_resizeOffscreen(10, 20, context)
         self.assertEqual((context.offWidth, context.offHeight), (10, 20))
 
+    def test_what_is_left_out_warns_once(self):
+        context, scene = drawn.MjrContext(model()), two_boxes()
+        scene.flags[1] = 1  # wireframe
+        _context._warned.clear()
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            wire = [draw(scene, context=context)[0] for _ in range(2)]
+            drawn.mjr_text(1, "text", context, 0, 0, 1, 1, 1)
+        self.assertEqual([str(one.message).split()[1] for one in told], ["mjRND_WIREFRAME", "mjr_text()"])
+        np.testing.assert_array_equal(wire[0], draw(two_boxes())[0])
+
     def test_arrays_that_cannot_be_written_are_refused(self):
         context, rect = drawn.MjrContext(model()), drawn.MjrRect(0, 0, 4, 4)
         drawn.mjr_render(rect, Scene(), context)

@@ -278,6 +278,8 @@ Result<ModelMeshes> make_meshes(const Model& model) {
 
 Result<std::vector<CodeTexture>> make_textures(const Model& model, const Look& look) {
     constexpr int kLargest = 16384, kSrgb = 2;
+    constexpr std::int64_t kMostTexels = std::int64_t{1} << 27;  // of all: several may name the same bytes
+    std::int64_t sum = 0;
     std::vector<CodeTexture> made;
     for (int i = 0; i < model.ntex; ++i) {
         const std::string what = fmt::format("texture {}", i);
@@ -290,6 +292,8 @@ Result<std::vector<CodeTexture>> make_textures(const Model& model, const Look& l
             return fail(ErrorCode::limit, fmt::format("{}: {} x {} texels, expected at most {}", what, width, height, kLargest));
         const std::int64_t rows = cube ? std::int64_t{width} * (six ? 6 : 1) : height, texels = rows * width;
         if (auto ok = check_range(model.tex_adr[i], texels * channels, model.ntexdata, what); !ok) return tl::unexpected<Error>(ok.error());
+        sum += cube && !six ? 6 * texels : texels;
+        if (sum > kMostTexels) return fail(ErrorCode::limit, fmt::format("{}: more than 2^27 texels with those before it", what));
         const std::uint8_t* from = model.tex_data + model.tex_adr[i];
         CodeTexture texture{width,
                             cube ? width : height,

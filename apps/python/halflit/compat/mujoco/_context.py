@@ -165,6 +165,8 @@ class MjrContext:
         if snapshot.sizes != self._sizes:  # the library reads as many vertices as its copy of the model has
             raise UsageError("the scene has other skins or flexes than the context's model")
         snapshot.handle = self._handle
+        if snapshot.is_wireframe:
+            _warn_once("mjRND_WIREFRAME does nothing: surfaces are drawn")
         return snapshot
 
     def release(self, snapshot: Snapshot) -> None:
@@ -313,11 +315,15 @@ def mjr_findRect(x: int, y: int, nrect: int, rect: Any) -> int:
 _warned: Set[str] = set()
 
 
+def _warn_once(text: str) -> None:
+    if text not in _warned:
+        _warned.add(text)
+        warn(text)
+
+
 def _left_out(name: str, what: str) -> Callable[..., None]:
     def nothing(*_: Any, **__: Any) -> None:
-        if name not in _warned:
-            _warned.add(name)
-            warn(f"{name}() does nothing: {what}")
+        _warn_once(f"{name}() does nothing: {what}")
 
     nothing.__name__ = nothing.__qualname__ = name
     nothing.__doc__ = f"Does nothing, and warns once: {what}."

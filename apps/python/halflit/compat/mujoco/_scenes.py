@@ -178,6 +178,10 @@ class Snapshot:
     def is_segment(self) -> bool:
         return bool(self._buffers["flags"][7])
 
+    @property
+    def is_wireframe(self) -> bool:
+        return bool(self._buffers["flags"][1])
+
     def planes(self) -> Tuple[float, float, bool]:
         """Distances of the near and the far plane, and whether the rays are parallel."""
         cameras = np.frombuffer(self._buffers["camera"], self._camera, 2)
