@@ -1,4 +1,4 @@
-// Shared by the sources whose functions JavaScript calls: module.cpp, page_module.cpp and package_module.cpp.
+// Shared by the sources whose functions JavaScript calls: *module.cpp.
 // A scene is a handle. Texts are UTF-8 and end with a zero byte; what is returned lives until the next call for that scene.
 #pragma once
 
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ int attempt(std::string& text, const Work& work) {
     try {
         done = work();
     } catch (const std::bad_alloc&) {
+        done = fail(ErrorCode::limit, "out of memory");
+    } catch (const std::length_error&) {  // a list of more than 2 GB
         done = fail(ErrorCode::limit, "out of memory");
     }
     if (done) return 0;

@@ -72,15 +72,16 @@ Result<void> LightOcclusion::find(const PreparedData& casters, const LightMap& m
     };
     const auto tiles = static_cast<std::size_t>(view.tile_count());
     const float units = rule.offset_units * (1.0f / 16777216.0f);
-    constexpr std::int16_t kMost = std::numeric_limits<std::int16_t>::max();
+    constexpr std::int16_t kMost = std::numeric_limits<std::int16_t>::max();  // above all texels of a map of 16384
     tiles_.assign(tiles + 1, {0, kFarAway, kMost, kMost, -1, -1});
     for (const std::span<ShadowLookup> group : groups)
         for (const auto& [fragment, code, at] : group) {
-            OcclusionTile& tile = tiles_[tile_of(at)];
+            const std::size_t t = tile_of(at);
+            OcclusionTile& tile = tiles_[t];
             const auto x = static_cast<std::int16_t>(at.x), y = static_cast<std::int16_t>(at.y);
             tile.farthest = std::min(tile.farthest, at.z);
             tile.x0 = std::min(tile.x0, x), tile.y0 = std::min(tile.y0, y), tile.x1 = std::max(tile.x1, x), tile.y1 = std::max(tile.y1, y);
-            ++(&tile)[1].first;
+            ++tiles_[t + 1].first;
         }
     for (std::size_t t = 0; t < tiles; ++t) tiles_[t + 1].first += tiles_[t].first;
     std::vector<std::uint32_t> next(tiles);

@@ -78,11 +78,11 @@ struct CodeArgs {
     std::uint32_t* codes;  ///< red | green << 8 | blue << 16 | alpha << 24; whole vectors are written
 };
 
-/// The places of a tile of a light's view: from `first` to the next tile's.
+/// A tile of a light's view. Its places are [first, first of the next tile).
 struct OcclusionTile {
     std::uint32_t first;
-    float farthest;               ///< least of their depths; 2: there are none
-    std::int16_t x0, y0, x1, y1;  ///< pixels of the view that hold them, both included
+    float farthest;               ///< smallest reversed depth of its places; 2 without places
+    std::int16_t x0, y0, x1, y1;  ///< box of its places in pixels of the view, inclusive; without places, x0 is above x1
 };
 
 /// Places in a light's view, at middles of texels, by tiles of it.

@@ -39,14 +39,14 @@ inline void occlude(const OcclusionGrid& grid, const ScreenVertex& v0, const Scr
                     int tile_y0, int tile_x1, int tile_y1) {
     const float nearest = grid.offset_factor == 0.0f ? vmax(vmax(v0.z, v1.z), v2.z) - grid.offset_units : 2.0f;
     // Texels whose middles are in the triangle's box.
-    const int x0 = (min3(v0.x, v1.x, v2.x) + 255) >> 8, x1 = max3(v0.x, v1.x, v2.x) >> 8;
-    const int y0 = (min3(v0.y, v1.y, v2.y) + 255) >> 8, y1 = max3(v0.y, v1.y, v2.y) >> 8;
+    const int first_x = (min3(v0.x, v1.x, v2.x) + 255) >> 8, last_x = max3(v0.x, v1.x, v2.x) >> 8;
+    const int first_y = (min3(v0.y, v1.y, v2.y) + 255) >> 8, last_y = max3(v0.y, v1.y, v2.y) >> 8;
     Occluder of;
     bool has_edges = false;
     for (int ty = tile_y0; ty <= tile_y1; ++ty)
         for (int tx = tile_x0; tx <= tile_x1; ++tx) {
             const OcclusionTile& tile = grid.tiles[ty * grid.tiles_x + tx];
-            if (!(nearest > tile.farthest) || x0 > tile.x1 || x1 < tile.x0 || y0 > tile.y1 || y1 < tile.y0) continue;
+            if (!(nearest > tile.farthest) || first_x > tile.x1 || last_x < tile.x0 || first_y > tile.y1 || last_y < tile.y0) continue;
             if (!has_edges) {
                 of.v0 = &v0, of.v1 = &v1, of.v2 = &v2;
                 of.edges[0] = make_edge(v0, v1), of.edges[1] = make_edge(v1, v2), of.edges[2] = make_edge(v2, v0);

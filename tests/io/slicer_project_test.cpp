@@ -226,7 +226,7 @@ TEST_CASE("models: formats that are not read are named, with a way to one that i
                                                          {"ASTM-E57", "E57"},
                                                          {"<?xml version=\"1.0\"?><COLLADA>", "COLLADA"},
                                                          {"<!-- arm --><mujoco model=\"arm\">", "MuJoCo"},
-                                                         {"<?xml version=\"1.0\"?><robot name=\"arm\">", "URDF"},
+                                                         {"<?xml version=\"1.0\"?><robot name=\"arm\"><mujoco/>", "URDF"},
                                                          {"BLENDER-v300", "Blender"},
                                                          {"#usda 1.0", "USD"},
                                                          {"PXR-USDC", "USD"}};

@@ -1,5 +1,5 @@
 // Tools of other projects that the package is tested with. HALFLIT_NPM_TOOLS is a folder where npm has installed some of them, as by
-//   npm install deno bun miniflare typescript ts52@npm:typescript@5.2 @types/node vite vite5@npm:vite@5 esbuild webpack webpack-cli
+//   npm install deno bun miniflare typescript ts52@npm:typescript@5.2 @types/node mujoco-js @mujoco/mujoco vite vite5@npm:vite@5 esbuild webpack webpack-cli
 // Otherwise the folders of PATH are searched.
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { delimiter, join } from "node:path";

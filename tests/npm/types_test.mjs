@@ -24,16 +24,22 @@ const pixels: Uint8ClampedArray = picture.pixels, file: Uint8Array = picture.png
   await scene.render({ shadows: "purple" });
   await scene.render(null);
 }
-const simulator = await MujocoRenderer.create({}, {}, { look: "3.3.3" }), { depth } = simulator.render({}, { width: 84, height: 84, depth: true });
-const nearest: number | undefined = depth?.[0];
+declare const mujoco: { MjvScene: object }, model: { vis: object; stat: object }, view: { ngeom: number; nlight: number; geoms: object; lights: object; camera: object; flags: object };
+const renderer = await MujocoRenderer.create(mujoco, model, { look: "3.3.3" }), { depth, picture: colors } = renderer.render(view, { width: 84, height: 84, depth: true });
+const nearest: number | undefined = depth[0], look: string = colors.report.look;
+const nothing: null = renderer.render(view, { rgb: false }).picture;
 // @ts-expect-error: 1 or 4
-simulator.render({}, { samples: 2 });
+renderer.render(view, { samples: 2 });
+// @ts-expect-error: it may not be there
+renderer.render(view).segmentation.length;
+// @ts-expect-error: in the other order
+await MujocoRenderer.create(model, mujoco);
 // @ts-expect-error: the name of a file is not its bytes
 await load("model.glb");
 // @ts-expect-error: a picture has no such file
 picture.encode("pfm");
 if (new HalflitError("", 5).code === 5) await init({ simd: false, wasm: new Uint8Array(3) });
-export { pixels, file, buffer, nearest };
+export { pixels, file, buffer, nearest, look, nothing };
 `;
 // A script of CommonJS.
 const kScript = `import { render } from "halflit";

@@ -98,7 +98,7 @@ def model(extent=4.0, samples=0, **members):
 
 
 def _plain(value):
-    """What JSON has, of objects and arrays."""
+    """Converts objects and arrays to values that JSON can hold."""
     if isinstance(value, types.SimpleNamespace):
         return {name: _plain(one) for name, one in vars(value).items()}
     if isinstance(value, list) and value and isinstance(value[0], types.SimpleNamespace):
@@ -116,11 +116,12 @@ def _main():
     skin, face_corners = corners + np.float32([-3, 1, 1]), corners[faces].reshape(-1, 3) + np.float32([-3, -3, 0])
     used = model(
         samples=4, ngeom=1, nmat=1, nmesh=1, nmeshvert=4, nmeshnormal=4, nmeshface=4, ntex=1, ntexdata=6 * 8 * 8 * 3, nskin=1, nskinvert=4,
-        nskinface=4, nflex=1, geom_type=[PLANE], geom_matid=[0], geom_size=[[3, 3, 0.1]], mat_texid=np.array([[-1, 0] + 8 * [-1]]),
+        nskinface=4, nflex=1, nhfield=1, nhfielddata=20, geom_type=[PLANE], geom_matid=[0], geom_size=[[3, 3, 0.1]], mat_texid=np.array([[-1, 0] + 8 * [-1]]),
         mat_texuniform=[0], mat_texrepeat=[[2, 2]], mesh_vertadr=[0], mesh_vertnum=[4], mesh_normaladr=[0], mesh_texcoordadr=[-1],
         mesh_faceadr=[0], mesh_facenum=[4], mesh_graphadr=[-1], mesh_vert=corners, mesh_normal=np.tile(np.float32([0, 0, 1]), (4, 1)),
         mesh_face=faces, mesh_facenormal=faces, mesh_facetexcoord=faces, tex_type=[0], tex_width=[8], tex_height=[48], tex_nchannel=[3],
         tex_colorspace=[2], tex_adr=[0], tex_data=rng.integers(0, 256, 6 * 8 * 8 * 3, np.uint8), skin_vertadr=[0], skin_vertnum=[4],
+        hfield_size=[[1.0, 0.75, 0.5, 0.1]], hfield_nrow=[4], hfield_ncol=[5], hfield_adr=[0], hfield_data=rng.random(20, np.float32),
         skin_texcoordadr=[-1], skin_faceadr=[0], skin_facenum=[4], skin_face=faces,
     )  # fmt: skip
     scene = Scene(version).shine(0.2, 0.5, (0.3, 0.2, -0.9)).look((1, -6, 5), (-0.15, 0.77, -0.62), (-0.12, 0.61, 0.78))
@@ -131,14 +132,23 @@ def _main():
     scene.add(BOX, (0.5, 0.4, 0.6), (-1, -1, 0.8), (0.1, 0.6, 0.9, 0.5), modelrbound=1)
     scene.add(MESH, (1, 1, 1), (-0.5, 1, 0.5), (0.9, 0.9, 0.2, 1), dataid=0, modelrbound=1)
     scene.add(106, (1, 1, 1), rgba=(0.2, 0.9, 0.3, 1), objid=0).add(105, (1, 1, 1), rgba=(0.9, 0.3, 0.8, 1), objid=0)
+    scene.add(1, (1, 0.75, 0.5), (2, 1.5, 0.1), (0.4, 0.4, 0.9, 1), dataid=0, modelrbound=1.5)
     scene.skinvert, scene.skinnormal = skin.ravel(), np.tile(np.float32([0, 0, 1]), 4)
     scene.flexface, scene.flexnormal = face_corners.ravel(), np.tile(np.float32([0, 0.6, 0.8]), len(face_corners))
     scene.flexfacenum, scene.flexfaceused = np.array([4], np.int32), np.array([4], np.int32)
-    planes = compat.render_batch([scene], compat.MjrContext(used), size, size, depth=True, segmentation=True)
     soft = {name: getattr(scene, name) for name in ("skinvert", "skinnormal", "flexface", "flexnormal", "flexfacenum", "flexfaceused")}
-    told = {"model": used, "scene": types.SimpleNamespace(**vars(scene.without_memory()), **soft), "size": size}
-    hashes = {name: hashlib.sha256(plane.tobytes()).hexdigest() for name, plane in planes.items()}
-    print(json.dumps({**{name: _plain(value) for name, value in told.items()}, "sha256": hashes}))
+    pictures = []
+    for turned in (False, True):
+        if turned:  # a room of another scale, and a parallel camera
+            scene.enabletransform, scene.scale = 1, 1.25
+            scene.translate[:], scene.rotate[:] = (0.5, -0.25, 0.125), (0.9, 0.1, -0.2, 0.375)
+            for camera in scene.camera:
+                camera.orthographic, camera.frustum_width, camera.frustum_bottom, camera.frustum_top = 1, 6, -5, 5
+        planes = compat.render_batch([scene], compat.MjrContext(used), size, size, depth=True, segmentation=True)
+        hashes = {name: hashlib.sha256(plane.tobytes()).hexdigest() for name, plane in planes.items()}
+        told = types.SimpleNamespace(**vars(scene.without_memory()), **soft)
+        pictures.append(types.SimpleNamespace(scene=told, sha256=types.SimpleNamespace(**hashes)))
+    print(json.dumps({"model": _plain(used), "size": size, "pictures": _plain(pictures)}))
 
 
 if __name__ == "__main__":

@@ -62,6 +62,16 @@ void convert_depth(const Picture& picture, const SceneFrame& made, std::size_t p
 
 }  // namespace
 
+Result<void> check_size(const Picture& picture) {
+    constexpr int kMostSide = 16384;
+    if (picture.width < 1 || picture.height < 1 || picture.width > kMostSide || picture.height > kMostSide)
+        return fail(ErrorCode::usage,
+                    fmt::format("picture: {} x {} pixels, expected 1 to {} on a side", picture.width, picture.height, kMostSide));
+    if (picture.samples != 1 && picture.samples != 4)
+        return fail(ErrorCode::usage, fmt::format("picture: samples is {}, expected 1 or 4", picture.samples));
+    return {};
+}
+
 Drawer::Drawer(FrameModel model, FixedFunctionRenderer renderer, const Execution& execution)
     : model_(std::move(model)), execution_(execution) {
     workers_.push_back(std::make_unique<Worker>(Worker{std::move(renderer), {}, {}, {}}));
@@ -113,10 +123,7 @@ Result<void> Drawer::draw(Worker& by, const Picture& picture, const Execution& e
                           std::chrono::steady_clock::time_point start) const {
     const FpEnvironment environment;
     const Scene& scene = *picture.scene;
-    if (picture.width < 1 || picture.height < 1 || std::int64_t{picture.width} * picture.height > std::int64_t{1} << 28)
-        return fail(ErrorCode::usage, fmt::format("picture: {} x {} pixels", picture.width, picture.height));
-    if (picture.samples != 1 && picture.samples != 4)
-        return fail(ErrorCode::usage, fmt::format("picture: samples is {}, expected 1 or 4", picture.samples));
+    if (auto ok = check_size(picture); !ok) return ok;
     FrameRequest request{.camera = picture.camera != nullptr ? picture.camera : scene.camera,
                          .flags = picture.flags != nullptr ? picture.flags : scene.flags,
                          .width = picture.width,

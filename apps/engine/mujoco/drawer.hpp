@@ -27,6 +27,9 @@ struct Picture {
     bool depth_of_color_pass = false;  ///< of opaque geoms and the sky; false: of all geoms
 };
 
+/// Fails (usage) for sides below 1 or above 16384, and for other samples than 1 and 4.
+[[nodiscard]] Result<void> check_size(const Picture& picture);
+
 /// Keeps shapes and textures, once for all threads. One call of render() at a time.
 class Drawer {
 public:

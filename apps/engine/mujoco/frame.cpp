@@ -82,7 +82,7 @@ public:
         if (request_.pass == Pass::color) {
             const std::size_t opaque = made_.frame.items.size();
             add_transparent();
-            // Of equal depths, the same geom is seen in both passes where the mirror comes first.
+            // The segment pass draws later geoms over earlier ones. The mirror is drawn first here, so it has to be the first geom.
             made_.has_segments = mirror_ <= 0 && made_.frame.items.size() == opaque;
         }
         if (flags_[kFog]) {

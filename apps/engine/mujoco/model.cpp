@@ -51,23 +51,34 @@ constexpr int kFinest = 250;
 constexpr float kWidestLine = 100;                             // pixels
 constexpr int kLeastShadowMap = 4, kLargestShadowMap = 16384;  // texels on a side, if there are any
 
+/// Takes a number of at most two digits off the text's begin; -1: it does not begin with one.
+int take_number(std::string_view& text) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+    if (digits < 1 || digits > 2) return -1;
+    int value = 0;
+    std::from_chars(text.data(), text.data() + digits, value);
+    text.remove_prefix(digits);
+    return value;
+}
+
+/// The same behind a point.
+int take_part(std::string_view& text) {
+    if (!text.starts_with('.')) return -1;
+    text.remove_prefix(1);
+    return take_number(text);
+}
+
 }  // namespace
 
 Result<Look> look_of(std::string_view name) {
-    // Two or three numbers of at most two digits.
-    int parts[3] = {}, count = 0;
-    bool is_release = true;
-    const char *at = name.data(), *const end = at + name.size();
-    while (is_release && at != end + 1) {
-        const auto [rest, error] = std::from_chars(at, end, parts[count]);
-        is_release = error == std::errc{} && *at != '-' && rest <= at + 2 && ++count <= 3 && (rest == end || (*rest == '.' && count < 3));
-        at = rest + 1;
-    }
-    const int release = is_release && count >= 2 ? 10000 * parts[0] + 100 * parts[1] + parts[2] : 0;
+    std::string_view rest = name;
+    const int major = take_number(rest), minor = take_part(rest), patch = rest.empty() ? 0 : take_part(rest);
+    const bool is_release = major >= 0 && minor >= 0 && patch >= 0 && rest.empty();
+    const int release = is_release ? 10000 * major + 100 * minor + patch : 0;
     const Look* found = nullptr;
     for (const Look& look : kLooks)
         if (look.since <= release) found = &look;
-    if (found != nullptr && parts[0] <= 3) return *found;
+    if (found != nullptr && major <= 3) return *found;
     return fail(ErrorCode::usage, fmt::format("look: '{}', expected a release of MuJoCo from 2.2 to 3, such as {}, {} or {}", name,
                                               kLooks[0].name, kLooks[1].name, kLooks[2].name));
 }

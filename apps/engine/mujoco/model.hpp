@@ -44,6 +44,8 @@ struct Model {
 
 /// mjtRndFlag.
 enum Flag { kShadow, kWireframe, kReflection, kAdditive, kSkybox, kFog, kHaze, kSegment, kIdColor, kCullFace, kFlagCount };
+inline constexpr std::string_view kFlagNames[kFlagCount] = {"SHADOW", "WIREFRAME", "REFLECTION", "ADDITIVE", "SKYBOX",
+                                                            "FOG",    "HAZE",      "SEGMENT",    "IDCOLOR",  "CULL_FACE"};
 inline constexpr std::uint8_t kDefaultFlags[kFlagCount] = {1, 0, 1, 0, 1, 0, 1, 0, 0, 1};
 
 /// mjtGeom, as far as versions agree; others have numbers below 0 here. SDF is drawn as a mesh.
@@ -86,14 +88,14 @@ struct Scene {
 
 /// Rules that differ among releases.
 struct Look {
-    std::string_view name;              ///< the last release with these rules, or the first without a later one
+    std::string_view name;              ///< a release with these rules
     int since;                          ///< 30303: 3.3.3 is the first release with them
     bool decodes_srgb;                  ///< textures that say so are decoded
     bool back_faces_alone;              ///< cast shadows
     float offset_factor, offset_units;  ///< of what casts shadows, away from the light
 };
 
-/// Of a release: "2.2" to "3", with any number of parts. Fails (usage) for another text.
+/// The rules of a release of MuJoCo from 2.2 on, below 4: two or three numbers of at most two digits. Fails (usage) for another text.
 [[nodiscard]] Result<Look> look_of(std::string_view name);
 
 }  // namespace halflit::engine::mujoco

@@ -278,7 +278,7 @@ Result<ModelMeshes> make_meshes(const Model& model) {
 
 Result<std::vector<CodeTexture>> make_textures(const Model& model, const Look& look) {
     constexpr int kLargest = 16384, kSrgb = 2;
-    constexpr std::int64_t kMostTexels = std::int64_t{1} << 27;  // of all: several may name the same bytes
+    constexpr std::int64_t kMostTexels = std::int64_t{1} << 27;  // in all; several textures may name the same bytes
     std::int64_t sum = 0;
     std::vector<CodeTexture> made;
     for (int i = 0; i < model.ntex; ++i) {

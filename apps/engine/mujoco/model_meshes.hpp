@@ -26,8 +26,8 @@ struct ModelMeshes {
 /// Fails (bad_input) for an index out of range, (limit) for too many vertices. Requires: check_model() passed.
 [[nodiscard]] Result<ModelMeshes> make_meshes(const Model& model);
 
-/// Fails (bad_input) for a texture beyond the model's bytes, (limit) for a side above 16384 and more
-/// than 2^27 texels of all.
+/// Fails (bad_input) for a texture beyond the model's bytes, (limit) for a side above 16384, or more
+/// than 2^27 texels in all.
 [[nodiscard]] Result<std::vector<CodeTexture>> make_textures(const Model& model, const Look& look);
 
 }  // namespace halflit::engine::mujoco

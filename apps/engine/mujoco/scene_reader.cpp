@@ -131,7 +131,8 @@ Result<Camera> read_camera(const Layout& layout, const std::byte* two) {
         camera.near_z > 1e-15f && camera.far_z > camera.near_z && camera.top > camera.bottom && finite(camera.far_z) &&
         finite(Vec3f{camera.top, camera.bottom, camera.top - camera.bottom}))
         return camera;
-    return fail(ErrorCode::usage, fmt::format("camera: from {} to {} along its view, from {} to {} in height: was the scene updated?",
+    return fail(ErrorCode::usage, fmt::format("camera: near {}, far {}, bottom {}, top {}, expected 0 < near < far and bottom < top: "
+                                              "call mjv_updateScene first",
                                               camera.near_z, camera.far_z, camera.bottom, camera.top));
 }
 

@@ -203,8 +203,8 @@ constexpr ForeignFormat kForeign[] = {
     {"COLLADA", "dae", "<", kByBlender, "<COLLADA"},
     {"AMF", "amf", "<", "convert it by a slicer to 3MF", "<amf"},
     {"X3D", "x3d", "<", kByBlender, "<X3D"},
-    {"a model of MuJoCo", "mjcf", "<", "simulate it by MuJoCo, whose scenes halflit.compat.mujoco draws", "<mujoco"},
-    {"URDF", "urdf", "<", "draw the meshes that it names", "<robot"},
+    {"URDF", "urdf", "<", "draw the meshes that it names", "<robot"},  // some have an element <mujoco>
+    {"a model of MuJoCo", "mjcf", "<", "load it in MuJoCo and draw its scenes with halflit.compat.mujoco", "<mujoco"},
     {"USDZ", "usdz", "PK", kByBlender, "", 0, begins_with_usd},
 };
 

@@ -118,26 +118,46 @@ export class Scene implements Disposable {
   [Symbol.dispose](): void;
 }
 
-export interface MujocoPicture {
-  /** Colours. Its report has `pixel_hash`, `samples` and `look`. */
-  picture: Picture;
-  /** Distances along the view, one a pixel, rows from the top; the far plane's where nothing is. null: not asked for. */
-  depth: Float32Array | null;
-  /** objid and objtype, two a pixel; -1: nothing. null: not asked for. */
-  segmentation: Int32Array | null;
+/** A picture of MujocoRenderer. */
+export type MujocoColors = Omit<Picture, "report"> & {
+  /** look: the release that was asked for. */
+  readonly report: { pixel_hash: string; size: [number, number]; samples: 1 | 4; look: string };
+};
+
+export interface MujocoOptions {
+  /** Default: 320 x 240. */
+  width?: number;
+  height?: number;
+  /** Of the colours (default: by the model's offsamples). */
+  samples?: 1 | 4;
+  /** Colours (default: true). Depth and segmentation alone take a tenth of the time. */
+  rgb?: boolean;
+  /** Distances along the view, one a pixel, rows from the top; the far plane's where nothing is. */
+  depth?: boolean;
+  /** objid and objtype (mjtObj), two a pixel; -1, -1 where nothing is. */
+  segmentation?: boolean;
+}
+
+/** null: not asked for. */
+export interface MujocoPlanes<Options extends MujocoOptions = MujocoOptions> {
+  picture: Options extends { rgb: false } ? null : Options extends { rgb?: true } ? MujocoColors : MujocoColors | null;
+  depth: Options extends { depth: true } ? Float32Array : Float32Array | null;
+  segmentation: Options extends { segmentation: true } ? Int32Array : Int32Array | null;
 }
 
 /** Draws scenes of the simulator MuJoCo (mujoco-js or @mujoco/mujoco) as its own classic renderer does. It copies the model's shapes and
  *  textures when it is made. */
 export class MujocoRenderer implements Disposable {
   private constructor();
-  /** mujoco: the simulator's module. look: the release whose pictures are made, "2.2.2" to "3" (default: the module's). */
-  static create(mujoco: object, model: object, options?: { look?: string } | null): Promise<MujocoRenderer>;
-  /** Draws what mjv_updateScene() left in an MjvScene: 320 x 240 by default. samples: 1 or 4, of the colours (default: by the model's
-   *  offsamples). */
-  render(scene: object, options?: {
-    width?: number; height?: number; samples?: 1 | 4; depth?: boolean; segmentation?: boolean;
-  } | null): MujocoPicture;
+  /** mujoco: the simulator's module; model: an MjModel of it. look: the release whose pictures are made, "2.2" or later, below 4 (default:
+   *  the module's). */
+  static create(
+    mujoco: { MjvScene: unknown; mj_versionString?: () => string }, model: { vis: unknown; stat: unknown }, options?: { look?: string } | null,
+  ): Promise<MujocoRenderer>;
+  /** Draws what mjv_updateScene() left in an MjvScene of the same module. */
+  render<const Options extends MujocoOptions>(
+    scene: { ngeom: number; nlight: number; geoms: unknown; lights: unknown; camera: unknown; flags: unknown }, options?: Options | null,
+  ): MujocoPlanes<Options>;
   /** Gives its memory back. */
   free(): void;
   [Symbol.dispose](): void;

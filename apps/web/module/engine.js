@@ -24,7 +24,7 @@ export class HalflitError extends Error {
 }
 
 export const usage = (message) => new HalflitError(message, kUsage);
-const line_of = (error) => String(error?.message ?? error).split("\n")[0];
+export const line_of = (error) => String(error?.message ?? error).split("\n")[0];
 const read_as = (name) => `read it first, as by await readFile(${name}) of node:fs/promises, or await fetch(${name})`;
 
 // null and undefined are no options.

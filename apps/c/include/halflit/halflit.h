@@ -1134,9 +1134,10 @@ typedef struct halflit_mujoco_picture {
 } halflit_mujoco_picture;
 HALFLIT_C_API int32_t halflit_mujoco_picture_init(halflit_mujoco_picture* picture, size_t size);
 
-/// Makes the shapes and textures of a model. look: the release whose pictures are made, "2.2" or later: 3.0 changed shadows, 3.3.3 decodes
-/// textures that are sRGB. execution may be null: the defaults; its on_tile and progress are not called. Fails (bad input) for
-/// arrays that contradict each other, (limit) for more than 2^26 corners of triangles, or 2^22 triangles of flexes.
+/// Makes the shapes and textures of a model. look: the release whose pictures are made, from "2.2" on, below 4. Shadows differ from 3.0 on;
+/// textures that are marked as sRGB are decoded from 3.3.3 on. execution may be null: the defaults; its on_tile and progress are not
+/// called. Fails (usage) for another look, (bad input) for arrays that contradict each other, (limit) for more than 2^26 corners of
+/// triangles, 2^22 triangles of flexes or 2^27 texels, or a texture's side above 16384.
 HALFLIT_C_API int32_t halflit_mujoco_create(const halflit_mujoco_model* model, const char* look, const halflit_execution* execution,
                                             halflit_mujoco** mujoco);
 /// Draws pictures, on all cores: of one scene seen by several cameras, or of many scenes. pictures: an array of structs of the first one's

@@ -93,7 +93,7 @@ class Defaults:
 
 class MjrContext:
     """A model's shapes and textures, and what was drawn last. They are copied at the first picture, and again after mjr_uploadTexture() and
-    its like. look: the release whose pictures are made, "2.2.2", "3.3.2" or "3.3.3"; None: by the version of the module that the model is
+    its like. look: the release whose pictures are made, "2.2" or later; None: by the version of the module that the model is
     from. threads: 0: all cores. Pictures are drawn when they are read, from a copy of the scene: what is not read takes no time. The buffer
     holds the last 64 pictures that no later one covers.
     """

@@ -36,7 +36,7 @@ def install(*, look: Optional[str] = None, threads: int = 0) -> None:
     package, until uninstall(). So mujoco.Renderer, Gymnasium's renderers and robosuite's draw without OpenGL, whatever MUJOCO_GL says. What
     was imported from `mujoco` by name before stays.
 
-    look: "2.2.2", "3.3.2" or "3.3.3", the release whose pictures are made; None: by mujoco's own version. threads: 0: all cores.
+    look: the release whose pictures are made, "2.2" or later; None: by mujoco's own version. threads: 0: all cores.
     """
     look_of(look, (3,))
     checked_threads(threads)

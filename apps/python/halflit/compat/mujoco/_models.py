@@ -28,7 +28,7 @@ LOOKS = ("2.2.2", "3.3.2", "3.3.3")
 def look_of(look: Optional[str], version: Version) -> str:
     """The look of a release of MuJoCo: of the one that is asked for, or of this version."""
     if look is not None:
-        found = re.fullmatch(r"(2|3)\.(\d+)(?:\.(\d+))?", str(look))
+        found = re.fullmatch(r"(2|3)\.(\d{1,2})(?:\.(\d{1,2}))?", str(look))
         version = tuple(int(part or 0) for part in found.groups()) if found else ()
         if version < (2, 2):
             raise UsageError(f"look: expected a release of MuJoCo from 2.2 to 3, such as {', '.join(LOOKS)}, found {shown(look)}")

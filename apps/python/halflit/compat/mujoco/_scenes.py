@@ -16,6 +16,8 @@ from ._layouts import Layout, Version, layout_of, version_of
 
 #: Members of mjvScene and of halflit_mujoco_scene that are arrays of numbers.
 _ARRAYS = {"skinvert": "f4", "skinnormal": "f4", "flexfaceused": "i4", "flexface": "f4", "flexnormal": "f4"}
+#: Numbers of flags, as the library counts them.
+_WIREFRAME, _SEGMENT = 1, 7
 _STRUCTS = {"geoms": "geom", "lights": "light", "camera": "camera"}
 
 
@@ -176,11 +178,11 @@ class Snapshot:
 
     @property
     def is_segment(self) -> bool:
-        return bool(self._buffers["flags"][7])
+        return bool(self._buffers["flags"][_SEGMENT])
 
     @property
     def is_wireframe(self) -> bool:
-        return bool(self._buffers["flags"][1])
+        return bool(self._buffers["flags"][_WIREFRAME])
 
     def planes(self) -> Tuple[float, float, bool]:
         """Distances of the near and the far plane, and whether the rays are parallel."""
