@@ -118,6 +118,14 @@ bool clip_line(const double (&clip)[2][4], const View& view, ClippedLine& out) {
         for (int i = 0; i < 4; ++i) at[i] = clip[0][i] + (clip[1][i] - clip[0][i]) * out.weight[k];
         if (!(at[3] > 0.0)) return false;
         end[k] = project(at, v);
+        // A rounding may leave a cut end just outside.
+        const auto limit = [](std::int32_t x, float half) {
+            const auto middle = static_cast<std::int32_t>(half * 256.0f), most = middle + 256 * kGuardBandPx,
+                       least = middle - 256 * kGuardBandPx;
+            return x < least ? least : x > most ? most : x;
+        };
+        end[k].x = limit(end[k].x, v.half_width);
+        end[k].y = limit(end[k].y, v.half_height);
     }
     expand_line(end[0], end[1], view, out.corner);
     return true;

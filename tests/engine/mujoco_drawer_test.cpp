@@ -235,7 +235,7 @@ TEST_CASE("mujoco drawer: many pictures at once are those of one at a time", "[e
         }
         pictures[3].width = 0;
         pictures[7].height = -1;
-        CHECK(parallel.render(pictures).error().message == "picture: 0 x 25 pixels");
+        CHECK(parallel.render(pictures).error().message == "picture: 0 x 25 pixels, expected 1 to 16384 on a side");
     }
 }
 
