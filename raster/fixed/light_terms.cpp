@@ -99,6 +99,7 @@ ItemLight VertexLight::surface_of(const FixedItem& item) const {
             made.terms.push_back(on_material(lights_[i], color, material.specular));
     std::copy(std::begin(depth_row_), std::end(depth_row_), args.depth);
     args.generated = material.generated && material.texture >= 0;
+    args.uv_scale[0] = material.uv_scale.x, args.uv_scale[1] = material.uv_scale.y;
     if (args.generated) rows_in_world(item, args.planes);
     args.textured = textured_;
     std::copy(std::begin(w_row_), std::end(w_row_), args.clip_w);

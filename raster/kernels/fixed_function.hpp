@@ -73,6 +73,7 @@ HALFLIT_INLINE void fixed_vertices_at(const FixedVertexArgs& args, int first) {
     }
     for (int i = 0; i < args.light_count; ++i) add_light(args.lights[i], args.shininess, p, n, view, sum);
     F third(0.0f);
+    u = u * F(args.uv_scale[0]), v = v * F(args.uv_scale[1]);
     if (args.generated) {
         u = row4(args.planes[0], p);
         v = row4(args.planes[1], p);

@@ -34,7 +34,8 @@ struct FixedVertexArgs {
     bool separate;   ///< a group of four floats for each light, added to `color`; otherwise the lights are added to `color`, and these are
                      ///< written:
     float depth[4];  ///< slot 0: position and the distance along the view, this row times (x, y, z, 1); slot 1: nothing, and coordinates,
-    bool generated;  ///< which are those of the mesh, or
+    bool generated;  ///< which are those of the mesh times uv_scale, or
+    float uv_scale[2];
     float planes[3][4];  ///< these rows times (x, y, z, 1) of the world; slot 2: colour and alpha
     bool textured;       ///< slot 4: the third coordinate, and this row times (x, y, z, 1): clip w
     float clip_w[4];

@@ -1,5 +1,6 @@
 // Scenes of MuJoCo become frames by the rules of its classic renderer, and nothing that a scene says is trusted.
 #include "apps/engine/mujoco/frame.hpp"
+#include "apps/engine/mujoco/geom_parts.hpp"
 #include "tests/engine/raw_scene.hpp"
 #include "tests/support/catch.hpp"
 
@@ -140,6 +141,46 @@ TEST_CASE("mujoco frame: capsules and arrows reach as far as their sizes say", "
         CHECK(bounds.max.z == Approx(row.high).margin(1e-5));
         CHECK(bounds.max.x == Approx(row.wide).margin(1e-5));
     }
+}
+
+TEST_CASE("mujoco frame: from 3.12 on flat textures lie on shapes by their own coordinates", "[engine][mujoco]") {
+    const std::vector<bool> cubes{false, true};
+    Geom g{};
+    g.use = {0, false, {3, 2}};
+    g.size = {2, 4, 1};
+    g.type = kBox;
+    CHECK(material_of(g, cubes, false, false).generated);
+    FixedMaterial box = material_of(g, cubes, true, false);
+    CHECK(!box.generated);
+    CHECK(box.texture == 0);
+    CHECK(box.uv_scale == Vec2f{3, 2});
+    g.use.uniform = true;
+    CHECK(material_of(g, cubes, true, false).uv_scale == Vec2f{6, 8});
+    g.use = {1, false, {3, 2}};
+    CHECK(material_of(g, cubes, true, false).generated);  // a cube
+    g.use = {0, false, {0, 2}};
+    CHECK(material_of(g, cubes, true, false).uv_scale == Vec2f{1, 2});
+    g.type = kHField;
+    CHECK(material_of(g, cubes, true, false).generated);
+    g.type = kMesh, g.texcoord = 1, g.use = {0, false, {3, 2}};
+    CHECK(material_of(g, cubes, false, false).uv_scale == Vec2f{1, 1});
+    CHECK(material_of(g, cubes, true, false).uv_scale == Vec2f{3, 2});
+
+    // Planes: from 0 to the repetition over their size, v downwards; without a size the origin is at the repetition's middle.
+    g.type = kPlane, g.texcoord = 0;
+    const auto at = [&](float x, float y) {
+        const FixedMaterial m = material_of(g, cubes, true, false);
+        return Vec2f{m.planes[0].x * x + m.planes[0].w, m.planes[1].y * y + m.planes[1].w};
+    };
+    g.dataid = -1;
+    CHECK(at(-1, 1) == Vec2f{0, 0});
+    CHECK(at(1, -1) == Vec2f{3, 2});
+    g.dataid = 0;
+    CHECK(at(-2, 4) == Vec2f{0, 0});
+    CHECK(at(2, -4) == Vec2f{3, 2});
+    g.size = {0, 0, 1};
+    CHECK(at(0, 0) == Vec2f{-0.5f, -0.5f});
+    CHECK(at(2, -2) == Vec2f{2.5f, 1.5f});
 }
 
 TEST_CASE("mujoco frame: lights are OpenGL's", "[engine][mujoco]") {

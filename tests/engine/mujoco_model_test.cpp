@@ -123,12 +123,19 @@ TEST_CASE("mujoco model: cubes of one picture have it on six faces", "[engine][m
     small.model.tex_colorspace = srgb;
     CHECK(make_textures(small.model, *look_of("3.3.3"))->front().decodes_srgb);
     CHECK(!make_textures(small.model, *look_of("3.3.2"))->front().decodes_srgb);
-    for (const auto& [release, look] :
-         {std::pair{"2.2", "2.2.2"}, {"2.3.7", "2.2.2"}, {"3.0", "3.3.2"}, {"3.3.2", "3.3.2"}, {"3.12.1", "3.3.3"}})
+    for (const auto& [release, look] : {std::pair{"2.2", "2.2.2"},
+                                        {"2.3.7", "2.2.2"},
+                                        {"3.0", "2.2.2"},
+                                        {"3.3", "3.3.2"},
+                                        {"3.3.2", "3.3.2"},
+                                        {"3.3.3", "3.3.3"},
+                                        {"3.11.0", "3.3.3"},
+                                        {"3.12.1", "3.12.0"},
+                                        {"3.99.99", "3.12.0"}})
         CHECK(look_of(release)->name == look);
     for (const char* other : {"", "3", "3.", "3.3.", ".3", "3.-1", "3.3.3.3", "3.100", "2.1", "4.0", "999999999.0", "3.3.3 ", "3,3"})
         CHECK(look_of(other).error().message ==
-              fmt::format("look: '{}', expected a release of MuJoCo from 2.2 to 3, such as 2.2.2, 3.3.2 or 3.3.3", other));
+              fmt::format("look: '{}', expected a release of MuJoCo from 2.2 on, below 4, such as 2.2.2 or 3.12.0", other));
 }
 
 TEST_CASE("mujoco model: a wrong number is one line of error", "[engine][mujoco]") {

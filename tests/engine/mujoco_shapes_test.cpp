@@ -136,6 +136,56 @@ TEST_CASE("mujoco shapes: corners that are equal are one vertex", "[engine][mujo
     CHECK(make_shape(Shape::sphere, f).indices.size() == 3 * 28 * (2 + 2 * 2 * 7));
 }
 
+TEST_CASE("mujoco shapes: texture coordinates are the angle around z and the way down, and split no surface", "[engine][mujoco]") {
+    Fineness with;
+    with.has_uv = true;
+    struct Row {
+        Shape shape;
+        float (*down)(Vec3f);  ///< v of a round surface
+    };
+    const Row rows[] = {
+        {Shape::sphere, [](Vec3f p) { return 0.5f - std::asin(p.z) / float(kPi); }},
+        {Shape::upper_cap, [](Vec3f p) { return 1 - std::asin(p.z - 1) / float(kPi / 2); }},
+        {Shape::lower_cap, [](Vec3f p) { return -std::asin(p.z + 1) / float(kPi / 2); }},
+        {Shape::tube, [](Vec3f p) { return (1 - p.z) / 2; }},
+        {Shape::cylinder, [](Vec3f p) { return (1 - p.z) / 2; }},
+        {Shape::cone, [](Vec3f p) { return 1 - p.z; }},
+    };
+    for (const Row& row : rows) {
+        INFO("shape " << static_cast<int>(row.shape));
+        const Mesh mesh = make_shape(row.shape, with), plain = make_shape(row.shape, {});
+        REQUIRE(plain.uv0.empty());
+        REQUIRE(mesh.uv0.size() == mesh.positions.size());
+        REQUIRE(mesh.indices.size() == plain.indices.size());
+        for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+            CHECK(mesh.positions[mesh.indices[i]] == plain.positions[plain.indices[i]]);
+            const Vec3f p = mesh.positions[mesh.indices[i]], n = mesh.normals[mesh.indices[i]];
+            const Vec2f uv = mesh.uv0[mesh.indices[i]];
+            const bool is_disk = (row.shape == Shape::cylinder && std::abs(n.z) == 1) || (row.shape == Shape::cone && n.z < 0);
+            if (is_disk) {
+                CHECK(uv.x == Approx(0.5f + 0.5f * p.x).margin(1e-6));
+                CHECK(uv.y == Approx(0.5f + 0.5f * p.y).margin(1e-6));
+                continue;
+            }
+            CHECK(uv.y == Approx(row.down(p)).margin(2e-3));  // asin is steep at the poles
+            if (std::hypot(p.x, p.y) < 1e-3f) continue;
+            const double turns = std::atan2(p.y, p.x) / (2 * kPi), difference = static_cast<double>(uv.x) - turns;
+            CHECK(std::abs(difference - std::round(difference)) < 1e-6);
+        }
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {  // no triangle goes back across the whole texture
+            const auto u = [&](std::size_t k) { return mesh.uv0[mesh.indices[i + k]].x; };
+            CHECK(std::max({u(0), u(1), u(2)}) - std::min({u(0), u(1), u(2)}) < 0.51f);
+        }
+    }
+    const Mesh box = make_shape(Shape::box, with);
+    for (std::size_t i = 0; i < box.positions.size(); ++i) {
+        const Vec3f p = box.positions[i], n = box.normals[i];
+        const float along = n.x != 0 ? p.y : p.x, up = n.z != 0 ? p.y : p.z;
+        CHECK(box.uv0[i] == Vec2f{(along + 1) / 2, (1 - up) / 2});
+    }
+    CHECK(make_shape(Shape::triangle, with).uv0 == std::vector<Vec2f>{{0, 1}, {1, 1}, {0, 0}});
+}
+
 TEST_CASE("mujoco shapes: haze is clear at both ends", "[engine][mujoco]") {
     for (const float r : {0.0f, 0.3f, 1.0f}) {
         const Mesh haze = make_shape(Shape::haze, {28, 16, 4, r, {0.2f, 0.4f, 0.6f}});

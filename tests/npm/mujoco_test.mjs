@@ -122,7 +122,7 @@ check("a freed renderer says so", /freed/.test((await refused(() => renderer.ren
 
 // ---- the simulator's own packages -----------------------------------------------------------------------------------------
 const kModel = `<mujoco><asset><texture name="t" type="2d" builtin="checker" width="64" height="64" rgb1=".1 .2 .3" rgb2=".4 .5 .6"/>
-  <material name="m" texture="t" texrepeat="3 3" reflectance=".2"/><mesh name="t" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset><worldbody>
+  <material name="m" texture="t" texrepeat="3 3" texuniform="true" reflectance=".2"/><mesh name="t" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset><worldbody>
   <light pos="0 0 3" dir="0 0 -1"/><geom type="plane" size="3 3 .1" material="m"/><geom type="box" size=".2 .3 .2" pos="-.8 .2 1"/>
   <geom type="sphere" size=".3" pos="0 0 1"/><geom type="mesh" mesh="t" pos=".8 .2 .5"/></worldbody></mujoco>`;
 const hashes = [];
@@ -138,9 +138,9 @@ for (const name of ["mujoco-js", "@mujoco/mujoco"]) {
   Object.assign(camera, { distance: 4, elevation: -25, azimuth: 110 });
   simulator.mj_forward(real, data);
   simulator.mjv_updateScene(real, data, new simulator.MjvOption(), new simulator.MjvPerturb(), camera, simulator.mjtCatBit.mjCAT_ALL.value, view);
-  const { picture, segmentation } = (await MujocoRenderer.create(simulator, real)).render(view, asked);
+  const { picture, segmentation } = (await MujocoRenderer.create(simulator, real, { look: "3.3.3" })).render(view, asked);
   check(`${name} ${simulator.mj_versionString()}: all geoms are in the picture`, new Set(segmentation.filter((_, i) => i % 2 === 0)).size === 5);
   hashes.push(picture.hash);
 }
-if (hashes.length > 1) check("releases with one look have one picture", new Set(hashes).size === 1, hashes);
+if (hashes.length > 1) check("one look has one picture of both releases", new Set(hashes).size === 1, hashes);
 end();

@@ -80,7 +80,7 @@ Drawer::Drawer(FrameModel model, FixedFunctionRenderer renderer, const Execution
 Result<Drawer> Drawer::make(const Model& model, const Look& look, const Execution& execution) {
     const FpEnvironment environment;
     if (auto ok = check_model(model); !ok) return tl::unexpected<Error>(ok.error());
-    auto meshes = make_meshes(model);
+    auto meshes = make_meshes(model, look.shapes_have_uv);
     if (!meshes) return tl::unexpected<Error>(meshes.error());
     auto textures = make_textures(model, look);
     if (!textures) return tl::unexpected<Error>(textures.error());

@@ -188,7 +188,7 @@ private:
         const bool is_mirror = static_cast<int>(index) == mirror_ && made_.frame.has_mirror, behind = is_seen_from_behind(g);
         const bool is_soft = g.type == kSkin || g.type == kFlex, is_line = g.type == kLine || g.type == kLineBox;
         FixedItem item;
-        item.material = material_of(g, model_.cubes, behind);
+        item.material = material_of(g, model_.cubes, model_.look.shapes_have_uv, behind);
         item.material.unlit = is_line;
         item.stage = stage;
         item.id = static_cast<std::uint32_t>(index) + 1;

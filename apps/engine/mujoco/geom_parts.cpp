@@ -32,16 +32,41 @@ constexpr PartRow kParts[] = {
     {kArrow2, Shape::cone, 1.75f, 1 / 6.0f, 2 / 6.0f},
 };
 
-/// A texture by the mesh's own coordinates, or by the position in the shape: two coordinates of it, or its direction.
-void set_texture(const Geom& g, const std::vector<bool>& cubes, FixedMaterial& m) {
+bool is_surface_of_shapes(std::int32_t type) {
+    const auto has_row = std::any_of(std::begin(kParts), std::end(kParts), [&](const PartRow& row) { return row.type == type; });
+    return type == kPlane || type == kCapsule || (has_row && type != kLine && type != kLineBox);
+}
+
+/// A flat texture by coordinates of the shape, from 0 to 1, times the repetition.
+void set_texture_by_uv(const Geom& g, FixedMaterial& m) {
     const TextureUse& use = g.use;
-    if (use.texture < 0) return;
-    const bool cube = cubes[static_cast<std::size_t>(use.texture)];
-    if (g.texcoord > 0) {
-        if (!cube) m.texture = use.texture;  // OpenGL binds a cube to the wrong target
-        return;
+    const float size[2] = {g.size.x, g.size.y};
+    float scale[2];
+    for (int k = 0; k < 2; ++k) {
+        scale[k] = use.repeat[k] > 0 ? use.repeat[k] : 1.0f;
+        if (use.uniform && size[k] > 0) scale[k] *= size[k];
     }
     m.texture = use.texture;
+    m.uv_scale = {scale[0], scale[1]};
+    if (g.type != kPlane) return;
+    // Planes of the model have their true size, or none, and others that of the unit shape.
+    m.generated = true;
+    const float shift = size[0] > 0 && size[1] > 0 ? 0.0f : -0.5f;
+    for (int k = 0; k < 2; ++k) {
+        const float half = 0.5f * scale[k], slope = (k == 0 ? half : -half) / (g.dataid >= 0 && size[k] > 0 ? size[k] : 1.0f);
+        m.planes[k] = {k == 0 ? slope : 0, k == 1 ? slope : 0, 0, (size[k] > 0 ? half : 0.0f) + shift};
+    }
+}
+
+/// A texture by the mesh's own coordinates, or by the position in the shape: two coordinates of it, or its direction.
+void set_texture(const Geom& g, const std::vector<bool>& cubes, bool shapes_have_uv, FixedMaterial& m) {
+    const TextureUse& use = g.use;
+    if (use.texture < 0) return;
+    const bool cube = cubes[static_cast<std::size_t>(use.texture)], own = g.texcoord > 0;
+    if (cube && own) return;  // OpenGL binds a cube to the wrong target
+    if (shapes_have_uv && !cube && (own || is_surface_of_shapes(g.type))) return set_texture_by_uv(g, m);
+    m.texture = use.texture;
+    if (own) return;
     m.generated = true;
     const float size[3] = {g.size.x, g.size.y, g.size.z};
     if (cube) {
@@ -124,14 +149,14 @@ std::vector<Part> parts_of(const Geom& g, const ModelMeshes& n, const Scene& sce
     return parts;
 }
 
-FixedMaterial material_of(const Geom& g, const std::vector<bool>& cubes, bool behind) {
+FixedMaterial material_of(const Geom& g, const std::vector<bool>& cubes, bool shapes_have_uv, bool behind) {
     FixedMaterial m;
     m.color = g.rgba;
     if (behind) m.color.w = static_cast<float>(0.3 * static_cast<double>(m.color.w));
     m.emission = Vec3f{g.rgba.x, g.rgba.y, g.rgba.z} * g.emission;
     m.specular = g.specular;
     m.shininess = std::clamp(g.shininess * 128.0f, 0.0f, 128.0f);
-    set_texture(g, cubes, m);
+    set_texture(g, cubes, shapes_have_uv, m);
     return m;
 }
 

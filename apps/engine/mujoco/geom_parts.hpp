@@ -22,7 +22,8 @@ struct Part {
 /// The meshes of a geom, whose indices are in range; empty for types that are not drawn. mirrors: it is the mirror.
 [[nodiscard]] std::vector<Part> parts_of(const Geom& geom, const ModelMeshes& numbers, const Scene& scene, bool mirrors);
 
-/// cubes: of each texture of the model, whether it is a cube. behind: the geom is a plane that is seen from behind.
-[[nodiscard]] FixedMaterial material_of(const Geom& geom, const std::vector<bool>& cubes, bool behind);
+/// cubes: of each texture of the model, whether it is a cube. shapes_have_uv: Look::shapes_have_uv. behind: the geom is a plane that is
+/// seen from behind.
+[[nodiscard]] FixedMaterial material_of(const Geom& geom, const std::vector<bool>& cubes, bool shapes_have_uv, bool behind);
 
 }  // namespace halflit::engine::mujoco

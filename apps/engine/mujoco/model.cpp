@@ -10,11 +10,12 @@
 namespace halflit::engine::mujoco {
 namespace {
 
-// Later releases draw both sides into shadow maps, with the offset that they set where OpenGL has clip control.
+// From 3.3.0 on both sides are drawn into shadow maps, with the offset that MuJoCo sets where OpenGL has clip control.
 constexpr Look kLooks[] = {
-    {"2.2.2", 20200, false, true, 0.0f, 1.0f},
-    {"3.3.2", 30000, false, false, 1.5f, 4.0f},
-    {"3.3.3", 30303, true, false, 1.5f, 4.0f},
+    {"2.2.2", 20200, false, false, true, 0.0f, 1.0f},
+    {"3.3.2", 30300, false, false, false, 1.5f, 4.0f},
+    {"3.3.3", 30303, true, false, false, 1.5f, 4.0f},
+    {"3.12.0", 31200, true, true, false, 1.5f, 4.0f},
 };
 
 struct MemberRow {
@@ -79,8 +80,8 @@ Result<Look> look_of(std::string_view name) {
     for (const Look& look : kLooks)
         if (look.since <= release) found = &look;
     if (found != nullptr && major <= 3) return *found;
-    return fail(ErrorCode::usage, fmt::format("look: '{}', expected a release of MuJoCo from 2.2 to 3, such as {}, {} or {}", name,
-                                              kLooks[0].name, kLooks[1].name, kLooks[2].name));
+    return fail(ErrorCode::usage, fmt::format("look: '{}', expected a release of MuJoCo from 2.2 on, below 4, such as {} or {}", name,
+                                              kLooks[0].name, std::end(kLooks)[-1].name));
 }
 
 Result<void> check_layout(const Layout& layout) {

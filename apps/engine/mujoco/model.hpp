@@ -91,6 +91,7 @@ struct Look {
     std::string_view name;              ///< a release with these rules
     int since;                          ///< 30303: 3.3.3 is the first release with them
     bool decodes_srgb;                  ///< textures that say so are decoded
+    bool shapes_have_uv;                ///< flat textures lie on primitives by coordinates of their own, which texrepeat multiplies
     bool back_faces_alone;              ///< cast shadows
     float offset_factor, offset_units;  ///< of what casts shadows, away from the light
 };

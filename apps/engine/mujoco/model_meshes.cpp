@@ -235,11 +235,12 @@ Result<void> add_flexes(const Model& model, ModelMeshes& to) {
 
 }  // namespace
 
-Result<ModelMeshes> make_meshes(const Model& model) {
+Result<ModelMeshes> make_meshes(const Model& model, bool shapes_have_uv) {
     ModelMeshes made;
     const auto here = [&] { return static_cast<int>(made.meshes.size()); };
     const Vec3f haze{model.haze_rgba[0], model.haze_rgba[1], model.haze_rgba[2]};
-    const Fineness fineness{model.numslices, model.numstacks, model.numquads, model.haze, haze};
+    const bool has_uv = shapes_have_uv && std::find(model.tex_type, model.tex_type + model.ntex, 0) != model.tex_type + model.ntex;
+    const Fineness fineness{model.numslices, model.numstacks, model.numquads, model.haze, haze, has_uv};
     for (int shape = 0; shape < static_cast<int>(Shape::count); ++shape) made.meshes.push_back(make_shape(Shape{shape}, fineness));
     std::int64_t left = kMostCorners;
     std::map<std::pair<std::vector<float>, std::vector<float>>, int> grids;

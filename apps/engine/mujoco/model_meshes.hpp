@@ -23,8 +23,9 @@ struct ModelMeshes {
     std::vector<SoftMesh> soft;  ///< skins, then flexes, whose `first` counts triangles
 };
 
-/// Fails (bad_input) for an index out of range, (limit) for too many vertices. Requires: check_model() passed.
-[[nodiscard]] Result<ModelMeshes> make_meshes(const Model& model);
+/// shapes_have_uv: shapes get texture coordinates if the model has a flat texture. Fails (bad_input) for an index out of range, (limit) for
+/// too many vertices. Requires: check_model() passed.
+[[nodiscard]] Result<ModelMeshes> make_meshes(const Model& model, bool shapes_have_uv = false);
 
 /// Fails (bad_input) for a texture beyond the model's bytes, (limit) for a side above 16384, or more
 /// than 2^27 texels in all.

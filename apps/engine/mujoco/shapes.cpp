@@ -6,10 +6,10 @@
 namespace halflit::engine::mujoco {
 namespace {
 
-/// Sine and cosine of an angle that is rounded to float, as floats.
+/// Sine and cosine of an angle that is rounded to float, as floats; u: its share of a whole turn.
 struct Turn {
-    float cos, sin;
-    explicit Turn(double angle) {
+    float cos, sin, u;
+    explicit Turn(double angle, float of_turn = 0) : u(of_turn) {
         const SinCos both = sin_cos(static_cast<double>(static_cast<float>(angle)));
         cos = static_cast<float>(both.cos), sin = static_cast<float>(both.sin);
     }
@@ -18,9 +18,12 @@ struct Turn {
 /// Surfaces around z. A ring is a function from a Turn to a Corner.
 class Rings {
 public:
-    explicit Rings(int slices) {
-        for (int j = 0; j <= slices; ++j) turns_.emplace_back(2.0 * kPi * j / slices);
+    explicit Rings(const Fineness& f) : has_uv_(f.has_uv) {
+        for (int j = 0; j <= f.slices; ++j)
+            turns_.emplace_back(2.0 * kPi * j / f.slices, static_cast<float>(j) / static_cast<float>(f.slices));
     }
+    /// Texture coordinates, where the shape has some.
+    [[nodiscard]] Vec2f uv(float u, float v) const { return has_uv_ ? Vec2f{u, v} : Vec2f{}; }
     template <class Lower, class Upper>
     void band(const Lower& lower, const Upper& upper, bool reversed = false) {
         for (std::size_t j = 0; j + 1 < turns_.size(); ++j)
@@ -39,22 +42,26 @@ public:
 
 private:
     std::vector<Turn> turns_;
+    bool has_uv_;
 };
 
-/// The half of a sphere on the side of z that `sign` gives, moved by `offset` along z.
-void add_half_sphere(Rings& rings, int sign, int stacks, float offset) {
+/// The half of a sphere on the side of z that `sign` gives, moved by `offset` along z. v_equator: coordinate v there; at the upper pole v
+/// is 0, at the lower one 1.
+void add_half_sphere(Rings& rings, int sign, int stacks, float offset, float v_equator) {
+    const float v_pole = sign > 0 ? 0.0f : 1.0f;
     const auto ring = [&](int i) {
         const Turn elevation(kPi / 2 * sign * i / stacks);
-        return [elevation, offset](Turn t) {
+        const float v = v_equator + (v_pole - v_equator) * static_cast<float>(i) / static_cast<float>(stacks);
+        return [&rings, elevation, offset, v](Turn t) {
             const Vec3f n{t.cos * elevation.cos, t.sin * elevation.cos, elevation.sin};
-            return Corner{{n.x, n.y, n.z + offset}, n};
+            return Corner{{n.x, n.y, n.z + offset}, n, rings.uv(t.u, v)};
         };
     };
     const auto side = static_cast<float>(sign);
     rings.fan(
         ring(stacks - 1),
-        [&](const Corner&, const Corner&) {
-            return Corner{{0, 0, side + offset}, {0, 0, side}};
+        [&](const Corner& a, const Corner& b) {
+            return Corner{{0, 0, side + offset}, {0, 0, side}, rings.uv((a.uv.x + b.uv.x) / 2, v_pole)};
         },
         sign < 0);
     for (int i = 0; i < stacks - 1; ++i) rings.band(ring(i), ring(i + 1), sign < 0);
@@ -65,12 +72,15 @@ void add_disk(Rings& rings, int sign, int stacks) {
     const Vec3f middle{0, 0, static_cast<float>(sign)}, normal{0, 0, sign > 0 ? 1.0f : -1.0f};
     const auto ring = [&](int i) {
         const float r = static_cast<float>(i) / static_cast<float>(stacks);
-        return [=](Turn t) { return Corner{{t.cos * r, t.sin * r, middle.z}, normal}; };
+        return [=, &rings](Turn t) {
+            const float x = t.cos * r, y = t.sin * r;
+            return Corner{{x, y, middle.z}, normal, rings.uv(0.5f + 0.5f * x, 0.5f + 0.5f * y)};
+        };
     };
     rings.fan(
         ring(1),
         [&](const Corner&, const Corner&) {
-            return Corner{middle, normal};
+            return Corner{middle, normal, rings.uv(0.5f, 0.5f)};
         },
         sign <= 0);
     for (int i = 1; i < stacks; ++i) rings.band(ring(i + 1), ring(i), sign <= 0);
@@ -79,7 +89,9 @@ void add_disk(Rings& rings, int sign, int stacks) {
 void add_tube(Rings& rings, int stacks) {
     const auto ring = [&](int i) {
         const float z = static_cast<float>(2 * i) / static_cast<float>(stacks) - 1.0f;
-        return [=](Turn t) { return Corner{{t.cos, t.sin, z}, normalize_or({t.cos, t.sin, 0}, {1, 0, 0})}; };
+        return [=, &rings](Turn t) {
+            return Corner{{t.cos, t.sin, z}, normalize_or({t.cos, t.sin, 0}, {1, 0, 0}), rings.uv(t.u, (1.0f - z) / 2)};
+        };
     };
     for (int i = 0; i < stacks; ++i) rings.band(ring(i), ring(i + 1));
 }
@@ -88,9 +100,13 @@ void add_cone(Rings& rings, int stacks) {
     const float slope = 0.70710678118654752440f;  // 1/sqrt(2)
     const auto ring = [&](int i) {
         const float r = static_cast<float>(i) / static_cast<float>(stacks);
-        return [=](Turn t) { return Corner{{t.cos * r, t.sin * r, 1.0f - r}, {t.cos * slope, t.sin * slope, slope}}; };
+        return [=, &rings](Turn t) {
+            return Corner{{t.cos * r, t.sin * r, 1.0f - r}, {t.cos * slope, t.sin * slope, slope}, rings.uv(t.u, r)};
+        };
     };
-    rings.fan(ring(1), [](const Corner& a, const Corner& b) { return Corner{{0, 0, 1}, normalize_or(a.normal + b.normal, {0, 0, 1})}; });
+    rings.fan(ring(1), [&](const Corner& a, const Corner& b) {
+        return Corner{{0, 0, 1}, normalize_or(a.normal + b.normal, {0, 0, 1}), rings.uv((a.uv.x + b.uv.x) / 2, 0)};
+    });
     for (int i = 1; i < stacks; ++i) rings.band(ring(i + 1), ring(i));
     add_disk(rings, 0, stacks);
 }
@@ -114,14 +130,16 @@ void add_square(MeshBuilder& builder, int axis, float side, int quads, int x, in
     const auto corner = [&](int i, int j) {
         const float u = step * static_cast<float>(i) - 1.0f, v = step * static_cast<float>(j) - 1.0f;
         const Vec3f n{axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0};
-        return Corner{axis == 0 ? Vec3f{side, u, v} : axis == 1 ? Vec3f{u, side, v} : Vec3f{u, v, side}, n};
+        const Vec2f uv{static_cast<float>(i) / static_cast<float>(quads), 1.0f - static_cast<float>(j) / static_cast<float>(quads)};
+        return Corner{axis == 0 ? Vec3f{side, u, v} : axis == 1 ? Vec3f{u, side, v} : Vec3f{u, v, side}, n, uv};
     };
     builder.quad(corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1), (axis == 1) == (side > 0));
 }
 
 /// Squares of all sides in turn, as transparent boxes are blended where nothing is culled.
-Mesh make_box(int quads, bool with_top, bool with_rest) {
-    MeshBuilder builder;
+Mesh make_box(const Fineness& f, bool with_top, bool with_rest) {
+    const int quads = f.quads;
+    MeshBuilder builder(f.has_uv);
     for (int x = 0; x < quads; ++x)
         for (int y = 0; y < quads; ++y)
             for (const int axis : {2, 0, 1})
@@ -140,17 +158,17 @@ Mesh lines(std::vector<Vec3f> positions, std::vector<std::uint32_t> indices) {
 }
 
 Mesh round_shape(Shape shape, const Fineness& f) {
-    Rings rings(f.slices);
+    Rings rings(f);
     const int half = f.stacks / 2;
     switch (shape) {
         case Shape::sphere:
-            add_half_sphere(rings, -1, half, 0);
-            add_half_sphere(rings, 1, half, 0);
+            add_half_sphere(rings, -1, half, 0, 0.5f);
+            add_half_sphere(rings, 1, half, 0, 0.5f);
             break;
         case Shape::upper_cap:
         case Shape::lower_cap: {
             const int sign = shape == Shape::upper_cap ? 1 : -1;
-            add_half_sphere(rings, sign, half, static_cast<float>(sign));
+            add_half_sphere(rings, sign, half, static_cast<float>(sign), sign > 0 ? 1.0f : 0.0f);
             break;
         }
         case Shape::cylinder:
@@ -170,7 +188,7 @@ Mesh round_shape(Shape shape, const Fineness& f) {
     Mesh mesh = rings.builder.take();
     if (shape == Shape::haze)
         for (const Vec2f uv : mesh.uv0) mesh.colors.push_back({f.haze_color.x, f.haze_color.y, f.haze_color.z, uv.x});
-    mesh.uv0.clear();
+    if (!f.has_uv || shape == Shape::haze) mesh.uv0.clear();
     return mesh;
 }
 
@@ -179,17 +197,17 @@ Mesh round_shape(Shape shape, const Fineness& f) {
 Mesh make_shape(Shape shape, const Fineness& fineness) {
     switch (shape) {
         case Shape::plane: {
-            Mesh mesh = make_box(fineness.quads, true, false);
+            Mesh mesh = make_box(fineness, true, false);
             for (Vec3f& p : mesh.positions) p.z = 0;
             return mesh;
         }
         case Shape::box:
         case Shape::box_top:
         case Shape::box_rest:
-            return make_box(fineness.quads, shape != Shape::box_rest, shape != Shape::box_top);
+            return make_box(fineness, shape != Shape::box_rest, shape != Shape::box_top);
         case Shape::triangle: {
-            MeshBuilder flat;
-            flat.triangle({{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 1}});
+            MeshBuilder flat(fineness.has_uv);
+            flat.triangle({{0, 0, 0}, {0, 0, 1}, {0, 1}}, {{1, 0, 0}, {0, 0, 1}, {1, 1}}, {{0, 1, 0}, {0, 0, 1}, {0, 0}});
             return flat.take();
         }
         case Shape::line:

@@ -31,6 +31,7 @@ struct Fineness {
     int slices = 28, stacks = 16, quads = 4;
     float haze = 0.3f;
     Vec3f haze_color{1, 1, 1};
+    bool has_uv = false;  ///< round shapes, boxes and triangles have texture coordinates, as from 3.12 on
 };
 
 [[nodiscard]] Mesh make_shape(Shape shape, const Fineness& fineness);

@@ -140,7 +140,7 @@ export interface MujocoOptions {
 
 /** null: not asked for. */
 export interface MujocoPlanes<Options extends MujocoOptions = MujocoOptions> {
-  picture: Options extends { rgb: false } ? null : Options extends { rgb?: true } ? MujocoColors : MujocoColors | null;
+  picture: MujocoOptions extends Options ? MujocoColors | null : Options extends { rgb: infer Rgb } ? (Rgb extends true ? MujocoColors : null) : MujocoColors;
   depth: Options extends { depth: true } ? Float32Array : Float32Array | null;
   segmentation: Options extends { segmentation: true } ? Int32Array : Int32Array | null;
 }

@@ -34,6 +34,7 @@ struct FixedMaterial {
     int texture = -1;                     ///< index of a CodeTexture; -1: none
     bool generated = false;               ///< texture coordinates are `planes` times (x, y, z, 1) of the object; false: Mesh::uv0
     Vec4f planes[3]{};                    ///< for u, v and, of cubes, the third coordinate
+    Vec2f uv_scale{1, 1};                 ///< factors on Mesh::uv0
     /// Its color alone counts, times Mesh::colors if the mesh has some. Solid items show the color once more for each light with shadows
     /// that reaches them, as surfaces without OpenGL's lighting do in such passes.
     bool unlit = false;

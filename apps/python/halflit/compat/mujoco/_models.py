@@ -22,7 +22,8 @@ _VISUAL = {
 }
 #: Names before 3.0 and 3.2.
 _OLDER = {"nmeshnormal": "nmeshvert", "nmeshtexcoord": "nmeshtexvert", "tex_data": "tex_rgb"}
-LOOKS = ("2.2.2", "3.3.2", "3.3.3")
+#: First releases of looks, and their names.
+LOOKS = (((2, 2), "2.2.2"), ((3, 3), "3.3.2"), ((3, 3, 3), "3.3.3"), ((3, 12), "3.12.0"))
 
 
 def look_of(look: Optional[str], version: Version) -> str:
@@ -31,8 +32,8 @@ def look_of(look: Optional[str], version: Version) -> str:
         found = re.fullmatch(r"(2|3)\.(\d{1,2})(?:\.(\d{1,2}))?", str(look))
         version = tuple(int(part or 0) for part in found.groups()) if found else ()
         if version < (2, 2):
-            raise UsageError(f"look: expected a release of MuJoCo from 2.2 to 3, such as {', '.join(LOOKS)}, found {shown(look)}")
-    return LOOKS[2 if version >= (3, 3, 3) else 1 if version >= (3,) else 0]
+            raise UsageError(f"look: expected a release of MuJoCo from 2.2 on, below 4, such as {LOOKS[-1][1]}, found {shown(look)}")
+    return [name for since, name in LOOKS if since <= version][-1]
 
 
 def checked_threads(threads: int) -> int:
