@@ -104,7 +104,7 @@ TEST_CASE("cad: triangles are within a quarter of a pixel of the surface, whose 
     if (!has_importer()) HALFLIT_SKIP("halflit-import-cad was not built");
     const double diagonal = 20 * std::sqrt(3.0);
     for (const std::string name : {"ball.brep", "ball.igs"}) {
-        for (const double detail : {128.0, 1024.0, 4096.0}) {
+        for (const double detail : {128.0, 512.0, 2048.0}) {
             INFO(name << " " << detail);
             const LoadedScene ball = load_cad(kModels + name, detail);
             CHECK(ball.info.detail_px == detail);
