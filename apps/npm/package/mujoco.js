@@ -79,8 +79,10 @@ export class MujocoRenderer {
 
   // mujoco: MuJoCo's module, model: an MjModel.
   static async create(mujoco, model, given) {
-    if (!mujoco?.MjvScene || !model?.vis) throw usage("MujocoRenderer.create: expected the module of MuJoCo and an MjModel");
-    const { look = mujoco.mj_versionString?.() } = options_of(given);
+    const look = read("MujocoRenderer.create", () => {
+      if (!mujoco?.MjvScene || !model?.vis) throw usage("MujocoRenderer.create: expected the module of MuJoCo and an MjModel");
+      return options_of(given).look ?? mujoco.mj_versionString?.();
+    });
     if (typeof look !== "string" || !/^[\d.]{1,12}$/.test(look)) throw usage(`look: expected a release of MuJoCo, such as "3.3.3", found ${shown(look)}`);
     const core = await running(), renderer = new MujocoRenderer(kMade, core, call(core, () => core._halflit_mujoco_open()));
     try {
