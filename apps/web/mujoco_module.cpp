@@ -73,11 +73,18 @@ T number_of(double value) {
 
 template <class T>
 constexpr const char* number_kind() {
-    if constexpr (std::is_same_v<T, std::int32_t>) return "int32";
-    if constexpr (std::is_same_v<T, std::int64_t>) return "int64";
-    if constexpr (std::is_same_v<T, std::uint8_t>) return "uint8";
-    if constexpr (std::is_same_v<T, float>) return "float";
-    if constexpr (std::is_same_v<T, double>) return "double";
+    if constexpr (std::is_same_v<T, std::int32_t>)
+        return "int32";
+    else if constexpr (std::is_same_v<T, std::int64_t>)
+        return "int64";
+    else if constexpr (std::is_same_v<T, std::uint8_t>)
+        return "uint8";
+    else if constexpr (std::is_same_v<T, float>)
+        return "float";
+    else {
+        static_assert(std::is_same_v<T, double>, "a type without a name in JavaScript");
+        return "double";
+    }
 }
 
 Result<void> draw(Mujoco& by, std::size_t geoms, std::size_t lights, Picture picture) {

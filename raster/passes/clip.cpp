@@ -65,9 +65,10 @@ ScreenVertex project(const double (&clip)[4], const Viewport& viewport) {
     const double inv_w = 1.0 / clip[3];
     const double x = clip[0] * inv_w * viewport.half_width + viewport.half_width;
     const double y = -(clip[1] * inv_w) * viewport.half_height + viewport.half_height;
-    // Of numbers around 1e16 a rounding may put a corner far outside of the guard band.
+    // Held to the guard band: where coordinates are around 1e16, rounding can put a cut corner far outside.
     const auto snapped = [](double window, double half) {
-        const double place = (window - 0.5) * 256.0, least = (half - kGuardBandPx - 1.0) * 256.0, most = (half + kGuardBandPx) * 256.0;
+        const double place = (window - 0.5) * 256.0, least = (half - kGuardBandPx - 0.5) * 256.0,
+                     most = (half + kGuardBandPx - 0.5) * 256.0;
         return static_cast<std::int32_t>(__builtin_lrint(place > least ? place < most ? place : most : least));
     };
     return {snapped(x, static_cast<double>(viewport.half_width)), snapped(y, static_cast<double>(viewport.half_height)),

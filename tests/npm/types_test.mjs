@@ -27,6 +27,8 @@ const pixels: Uint8ClampedArray = picture.pixels, file: Uint8Array = picture.png
 declare const mujoco: { MjvScene: object }, model: { vis: object; stat: object }, view: { ngeom: number; nlight: number; geoms: object; lights: object; camera: object; flags: object };
 const renderer = await MujocoRenderer.create(mujoco, model, { look: "3.3.3" }), { depth, picture: colors } = renderer.render(view, { width: 84, height: 84, depth: true });
 const nearest: number | undefined = depth[0], look: string = colors.report.look;
+renderer.render(view).picture.png();
+renderer.render(view, {}).picture.png();
 const nothing: null = renderer.render(view, { rgb: false }).picture;
 // @ts-expect-error: 1 or 4
 renderer.render(view, { samples: 2 });

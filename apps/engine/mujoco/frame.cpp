@@ -82,7 +82,7 @@ public:
         if (request_.pass == Pass::color) {
             const std::size_t opaque = made_.frame.items.size();
             add_transparent();
-            // The segment pass draws later geoms over earlier ones. The mirror is drawn first here, so it has to be the first geom.
+            // The segment pass draws later geoms over earlier ones. Here the mirror loses to all others, so it has to be the first geom.
             made_.has_segments = mirror_ <= 0 && made_.frame.items.size() == opaque;
         }
         if (flags_[kFog]) {
@@ -158,8 +158,8 @@ private:
             }
             made_.frame.lights.push_back(light);
         }
-        if (!any) made_.frame.ambient = 0.3f;
         const Look& look = model_.look;
+        if (look.counts_lights_alone ? !any : scene_.nlight == 0) made_.frame.ambient = 0.3f;
         made_.frame.shadow = {look.back_faces_alone && flags_[kCullFace], look.offset_factor, look.offset_units};
     }
 

@@ -12,10 +12,10 @@ namespace {
 
 // From 3.3.0 on both sides are drawn into shadow maps, with the offset that MuJoCo sets where OpenGL has clip control.
 constexpr Look kLooks[] = {
-    {"2.2.2", 20200, false, false, true, 0.0f, 1.0f},
-    {"3.3.2", 30300, false, false, false, 1.5f, 4.0f},
-    {"3.3.3", 30303, true, false, false, 1.5f, 4.0f},
-    {"3.12.0", 31200, true, true, false, 1.5f, 4.0f},
+    {"2.2.2", 20200, false, false, false, true, 0.0f, 1.0f},
+    {"3.3.2", 30300, false, false, false, false, 1.5f, 4.0f},
+    {"3.3.3", 30303, true, false, false, false, 1.5f, 4.0f},
+    {"3.12.0", 31200, true, true, true, false, 1.5f, 4.0f},
 };
 
 struct MemberRow {

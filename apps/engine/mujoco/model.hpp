@@ -92,6 +92,7 @@ struct Look {
     int since;                          ///< 30303: 3.3.3 is the first release with them
     bool decodes_srgb;                  ///< textures that say so are decoded
     bool shapes_have_uv;                ///< flat textures lie on primitives by coordinates of their own, which texrepeat multiplies
+    bool counts_lights_alone;           ///< there is ambient light where no light counts; else where the scene has none
     bool back_faces_alone;              ///< cast shadows
     float offset_factor, offset_units;  ///< of what casts shadows, away from the light
 };

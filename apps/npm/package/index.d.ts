@@ -125,10 +125,10 @@ export type MujocoColors = Omit<Picture, "report"> & {
 };
 
 export interface MujocoOptions {
-  /** Default: 320 x 240. */
+  /** Both or none. Default: 320 x 240. */
   width?: number;
   height?: number;
-  /** Of the colours (default: by the model's offsamples). */
+  /** Samples a pixel, for colours (default: 4 if the model's offsamples is above 1, else 1). */
   samples?: 1 | 4;
   /** Colours (default: true). Depth and segmentation alone take a tenth of the time. */
   rgb?: boolean;
@@ -140,7 +140,8 @@ export interface MujocoOptions {
 
 /** null: not asked for. */
 export interface MujocoPlanes<Options extends MujocoOptions = MujocoOptions> {
-  picture: MujocoOptions extends Options ? MujocoColors | null : Options extends { rgb: infer Rgb } ? (Rgb extends true ? MujocoColors : null) : MujocoColors;
+  picture: Options extends { rgb: infer Rgb } ? (Rgb extends true ? MujocoColors : null)
+    : "rgb" extends keyof Options ? MujocoColors | null : MujocoColors;
   depth: Options extends { depth: true } ? Float32Array : Float32Array | null;
   segmentation: Options extends { segmentation: true } ? Int32Array : Int32Array | null;
 }
@@ -155,7 +156,7 @@ export class MujocoRenderer implements Disposable {
     mujoco: { MjvScene: unknown; mj_versionString?: () => string }, model: { vis: unknown; stat: unknown }, options?: { look?: string } | null,
   ): Promise<MujocoRenderer>;
   /** Draws what mjv_updateScene() left in an MjvScene of the same module. */
-  render<const Options extends MujocoOptions>(
+  render<const Options extends MujocoOptions = {}>(
     scene: { ngeom: number; nlight: number; geoms: unknown; lights: unknown; camera: unknown; flags: unknown }, options?: Options | null,
   ): MujocoPlanes<Options>;
   /** Gives its memory back. */

@@ -28,8 +28,9 @@ function read(what, work) {
   }
 }
 
-// A value in a message: of one line.
-const shown = (value) => typeof value === "string" ? JSON.stringify(value.slice(0, 40)) : typeof value === "object" ? "an object" : String(value);
+// A value in a message, in one line.
+const shown = (value) => typeof value === "string" ? JSON.stringify(value.slice(0, 40)) : value === null ? "null"
+  : typeof value === "object" || typeof value === "function" ? `one of type ${typeof value}` : String(value);
 
 function count_of(what, value) {
   if (!Number.isInteger(value) || value > 0x7fffffff) throw usage(`${what}: expected a count, found ${shown(value)}`);

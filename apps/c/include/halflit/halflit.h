@@ -1134,7 +1134,7 @@ typedef struct halflit_mujoco_picture {
 } halflit_mujoco_picture;
 HALFLIT_C_API int32_t halflit_mujoco_picture_init(halflit_mujoco_picture* picture, size_t size);
 
-/// Makes the shapes and textures of a model. look: the release whose pictures are made, from "2.2" on, below 4. Shadows differ from 3.0 on;
+/// Makes the shapes and textures of a model. look: the release whose pictures are made, from "2.2" on, below 4. Shadows differ from 3.3 on;
 /// textures that are marked as sRGB are decoded from 3.3.3 on. execution may be null: the defaults; its on_tile and progress are not
 /// called. Fails (usage) for another look, (bad input) for arrays that contradict each other, (limit) for more than 2^26 corners of
 /// triangles, 2^22 triangles of flexes or 2^27 texels, or a texture's side above 16384.

@@ -33,7 +33,7 @@ def look_of(look: Optional[str], version: Version) -> str:
         version = tuple(int(part or 0) for part in found.groups()) if found else ()
         if version < (2, 2):
             raise UsageError(f"look: expected a release of MuJoCo from 2.2 on, below 4, such as {LOOKS[-1][1]}, found {shown(look)}")
-    return [name for since, name in LOOKS if since <= version][-1]
+    return [name for since, name in LOOKS if since <= max(version, LOOKS[0][0])][-1]
 
 
 def checked_threads(threads: int) -> int:
