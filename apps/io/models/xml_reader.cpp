@@ -77,7 +77,7 @@ std::size_t mend(std::span<std::byte> bytes, bool is_utf8) {
                 free_to = std::min(text.find(end, at + begin.size()), text.size());
                 comment = begin == "<!--" ? at + begin.size() : text.size();
             }
-        } else if (c == '<' && next >= '\0' && next < 'A' && next != '/' && next != ':') {
+        } else if (c == '<' && static_cast<unsigned char>(next) < 'A' && next != '/' && next != ':') {
             replace(at, '(');
         }
     }
