@@ -1,11 +1,8 @@
 // Pictures of scenes of the simulator MuJoCo, whose own module (mujoco-js, @mujoco/mujoco) has the model and the scene.
-import { HalflitError, Picture, allocated, any_of, call, copied, line_of, options_of, out_of_memory, running, usage, with_text } from "./engine.js";
+import { HalflitError, Picture, allocated, any_of, call, copied, kForgotten, line_of, options_of, out_of_memory, running, usage, with_text } from "./engine.js";
 
 const kArrays = { int32: Int32Array, int64: BigInt64Array, uint8: Uint8Array, float: Float32Array, double: Float64Array };
 const kStructs = { geom: "MjvGeom", light: "MjvLight", camera: "MjvGLCamera" };
-const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new FinalizationRegistry(({ core, handle }) => {
-  if (!core.ended) core._halflit_mujoco_close(handle);
-});
 
 const value_of_enum = (constant) => Number(constant?.value ?? constant ?? -1);
 
@@ -75,7 +72,7 @@ export class MujocoRenderer {
     this.#core = core;
     this.#handle = handle;
     this.#tables = tables_of(core);
-    kForgotten?.register(this, { core, handle }, this);
+    kForgotten?.register(this, { core, close: () => core._halflit_mujoco_close(handle) }, this);
   }
 
   // mujoco: MuJoCo's module, model: an MjModel.
@@ -229,10 +226,10 @@ export class MujocoRenderer {
     return call(core, () => {
       this.#checked(core._halflit_mujoco_draw(this.#handle, counts.geoms, counts.lights, width, height, samples, rgb ? 1 : 0, depth ? 1 : 0,
         segmentation ? 1 : 0));
-      const report = { pixel_hash: core.UTF8ToString(core._halflit_mujoco_hash(this.#handle)), size: [width, height], samples, look: this.#look };
+      const report = () => ({ pixel_hash: core.UTF8ToString(core._halflit_mujoco_hash(this.#handle)), size: [width, height], samples, look: this.#look });
       const plane = (place, count) => copied(core, place, 4 * count).buffer, area = width * height;
       return {
-        picture: rgb ? new Picture(core, width, height, core._halflit_mujoco_pixels(this.#handle), report) : null,
+        picture: rgb ? new Picture(core, width, height, core._halflit_mujoco_pixels(this.#handle), report()) : null,
         depth: depth ? new Float32Array(plane(core._halflit_mujoco_depth(this.#handle), area)) : null,
         segmentation: segmentation ? new Int32Array(plane(core._halflit_mujoco_segmentation(this.#handle), 2 * area)) : null,
       };

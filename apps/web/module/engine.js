@@ -275,8 +275,9 @@ export class Picture {
 }
 
 // ---- scenes -------------------------------------------------------------------------------------------------------------
-const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new FinalizationRegistry(({ core, handle }) => {
-  if (!core.ended) core._halflit_close(handle);
+// Closes what nobody holds any more.
+export const kForgotten = typeof FinalizationRegistry === "undefined" ? null : new FinalizationRegistry(({ core, close }) => {
+  if (!core.ended) close();
 });
 
 export const is_built_in = (scene) => /^(demo$|sphere:|lights:)/.test(scene);
@@ -290,7 +291,7 @@ export class Scene {
     this.#name = name;
     this.#defaults = defaults;
     if (typeof defaults.files === "function") this.#resolve = defaults.files;
-    kForgotten?.register(this, { core, handle }, this);
+    kForgotten?.register(this, { core, close: () => core._halflit_close(handle) }, this);
   }
 
   static async open(source, options) {
